@@ -1,0 +1,105 @@
+//! What happened in a game, for whoever shows, sounds or counts it. It is derived from the state and never feeds back.
+
+use serde::{Deserialize, Serialize};
+
+use crate::physics::{Event, EventKind};
+
+/// Something that happened.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct GameEvent {
+    /// When.
+    pub tick: u64,
+    /// What.
+    pub kind: GameEventKind,
+}
+
+/// What happened. Elements are places in the table's file.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub enum GameEventKind {
+    /// A ball met an element, at that normal speed in m/s.
+    Touched {
+        /// The element.
+        element: u16,
+        /// Of approach.
+        speed: f32,
+    },
+    /// An element kicked a ball.
+    Kicked {
+        /// The element.
+        element: u16,
+        /// Of approach.
+        speed: f32,
+    },
+    /// A target fell.
+    Felled {
+        /// The element.
+        element: u16,
+        /// Of approach.
+        speed: f32,
+    },
+    /// A ball passed a rollover.
+    Passed {
+        /// The element.
+        element: u16,
+    },
+    /// A player made points.
+    Points {
+        /// Whose.
+        seat: u8,
+        /// How many.
+        points: u64,
+        /// Where on the table, if anywhere.
+        place: Option<(f32, f32)>,
+    },
+    /// A line for the display, by its place in the table's messages.
+    Message {
+        /// Its place.
+        place: u16,
+    },
+    /// A flipper button was pressed.
+    Flipped {
+        /// The right one.
+        right: bool,
+    },
+    /// A seat was taken.
+    SatDown {
+        /// Which.
+        seat: u8,
+    },
+    /// A seat fell free.
+    StoodUp {
+        /// Which.
+        seat: u8,
+    },
+    /// A game began.
+    Started,
+    /// A ball was served.
+    Served {
+        /// To whom.
+        seat: u8,
+        /// Which, from 1.
+        ball: u32,
+    },
+    /// A ball was lost, and with it the turn.
+    Lost {
+        /// Whose.
+        seat: u8,
+    },
+    /// A stuck ball was served again.
+    Rescued,
+    /// The game is over.
+    Over,
+}
+
+impl GameEventKind {
+    /// The part of a physics event that is shown.
+    pub(super) fn of_physics(event: &Event) -> Option<Self> {
+        match event.kind {
+            EventKind::Touched { element, speed } => Some(Self::Touched { element, speed: speed as f32 }),
+            EventKind::Kicked { element, speed } => Some(Self::Kicked { element, speed: speed as f32 }),
+            EventKind::Felled { element, speed } => Some(Self::Felled { element, speed: speed as f32 }),
+            EventKind::Passed { element } => Some(Self::Passed { element }),
+            EventKind::Drained | EventKind::Escaped => None,
+        }
+    }
+}

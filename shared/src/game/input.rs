@@ -1,0 +1,40 @@
+//! Inputs: everything that alters a game from outside, stamped with the tick at which it acts. Table, seed and inputs
+//! are all that a game is a function of.
+
+use serde::{Deserialize, Serialize};
+
+/// Seats at a table: players who alternate ball by ball.
+pub const SEATS: usize = 2;
+
+/// What somebody does.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Action {
+    /// Takes the seat.
+    Sit,
+    /// Leaves it. A turn that was theirs is over.
+    Stand,
+    /// Starts a game with everyone who is seated.
+    Start,
+    /// Presses or releases a flipper button.
+    Flipper {
+        /// The right one, else the left one.
+        right: bool,
+        /// Pressed, else released.
+        pressed: bool,
+    },
+    /// Holds the plunger pulled by this share of its stroke, in 65535ths.
+    Pull(u16),
+    /// Lets go of it.
+    Release,
+}
+
+/// An action of a seat at a tick.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Input {
+    /// The tick in which it acts.
+    pub tick: u64,
+    /// Whose it is.
+    pub seat: u8,
+    /// What it is.
+    pub action: Action,
+}

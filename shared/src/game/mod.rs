@@ -1,0 +1,328 @@
+//! The game: a table, its world and rules, and whose turn it is. [`Game::step`] is the one entry; players, servers,
+//! spectators, replays and tests all run it.
+
+mod bot;
+mod events;
+mod input;
+mod state;
+
+use std::sync::Arc;
+
+pub use bot::Bot;
+pub use events::{GameEvent, GameEventKind};
+pub use input::{Action, Input, SEATS};
+pub use state::{GameState, Phase, Seat};
+
+use crate::math::digest_of;
+use crate::physics::ball::{Instant, Support};
+use crate::physics::{EventKind, StateError, World};
+use crate::rules::{self, Effect, Occasion, Score};
+use crate::table::Table;
+
+/// Seconds between a lost ball and the next.
+const SERVE_PAUSE: f64 = 1.5;
+/// Seconds between the start of a game and its first ball.
+const START_PAUSE: f64 = 0.3;
+/// Seconds for which a ball may lie still, away from the plunger and with no button held, before it is served again.
+const STUCK_AFTER: f64 = 8.0;
+/// Slower than this share of the ball's radius a second it lies still.
+const STILL: f64 = 0.05;
+
+/// A game in progress, or a table that waits for one.
+#[derive(Debug, Clone)]
+pub struct Game {
+    table: Arc<Table>,
+    world: World,
+    play: state::Play,
+    events: Vec<GameEvent>,
+}
+
+impl Game {
+    /// A table with nobody at it.
+    pub fn new(table: Arc<Table>) -> Self {
+        let world = World::new(Arc::clone(&table.scene));
+        Self { table, world, play: state::Play::default(), events: Vec::with_capacity(64) }
+    }
+
+    /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
+    pub fn step(&mut self, inputs: &[Input]) -> &[GameEvent] {
+        self.events.clear();
+        let tick = self.world.state().tick;
+        // 1. What players do.
+        for input in inputs.iter().filter(|input| input.tick == tick) {
+            self.act(input.seat, input.action);
+        }
+        // 2. A ball that is due.
+        self.serve_due();
+        // 3. The world moves.
+        self.world.step();
+        // 4. The rules make points of what happened.
+        self.apply_rules();
+        // 5. A lost ball ends the turn; a stuck one is served again.
+        self.end_turn_when_lost();
+        self.free_stuck_ball();
+        &self.events
+    }
+
+    /// The tick that the next step plays.
+    pub fn tick(&self) -> u64 {
+        self.world.state().tick
+    }
+
+    /// The table that it is played on.
+    pub fn table(&self) -> &Arc<Table> {
+        &self.table
+    }
+
+    /// Balls, flippers, targets.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Whose turn it is.
+    pub fn phase(&self) -> Phase {
+        self.play.phase
+    }
+
+    /// Who is seated, and their points.
+    pub fn seats(&self) -> &[Seat; SEATS] {
+        &self.play.seats
+    }
+
+    /// Lit lights, one bit each.
+    pub fn lights(&self) -> u64 {
+        self.play.lights
+    }
+
+    /// What happened in the last step.
+    pub fn events(&self) -> &[GameEvent] {
+        &self.events
+    }
+
+    /// Whether somebody can still join the game that stands at its start: first ball, first turn, nothing hit yet.
+    pub fn is_at_start(&self) -> bool {
+        match self.play.phase {
+            Phase::Idle | Phase::Over => true,
+            Phase::Play { seat, ball, untouched, .. } => {
+                let first = self.play.seats.iter().position(|s| s.playing);
+                ball == 1 && untouched && first == Some(usize::from(seat))
+            }
+        }
+    }
+
+    /// Everything that changes: to be saved, sent or restored.
+    pub fn state(&self) -> GameState {
+        GameState { world: self.world.state().clone(), play: self.play.clone() }
+    }
+
+    /// Goes on from a saved state.
+    ///
+    /// # Errors
+    /// If the state does not fit the table; the game is then unchanged.
+    pub fn restore(&mut self, state: GameState) -> Result<(), StateError> {
+        state.play.check()?;
+        self.world.restore(state.world)?;
+        self.play = state.play;
+        self.events.clear();
+        Ok(())
+    }
+
+    /// Digest of the whole state, bit for bit.
+    pub fn digest(&self) -> u64 {
+        digest_of(&(self.world.state(), &self.play))
+    }
+
+    fn ticks(&self, seconds: f64) -> u32 {
+        (seconds / self.table.scene.tick_seconds) as u32
+    }
+
+    /// 1. An action of a seat. What is not theirs to do now has no effect.
+    fn act(&mut self, seat: u8, action: Action) {
+        let Some(place) = self.play.seats.get(usize::from(seat)).copied() else { return };
+        match action {
+            Action::Sit => {
+                if !place.taken {
+                    let playing = self.is_at_start() && matches!(self.play.phase, Phase::Play { .. });
+                    self.play.seats[usize::from(seat)] = Seat { taken: true, playing, score: Score::default() };
+                    self.emit(GameEventKind::SatDown { seat });
+                }
+            }
+            Action::Stand => {
+                if place.taken {
+                    self.stand(seat);
+                }
+            }
+            Action::Start => {
+                if place.taken && !matches!(self.play.phase, Phase::Play { .. }) {
+                    self.start();
+                }
+            }
+            Action::Flipper { right, pressed } => {
+                if self.play.phase.has_turn(seat) {
+                    if pressed {
+                        self.emit(GameEventKind::Flipped { right });
+                    }
+                    self.world.press(right, pressed);
+                }
+            }
+            Action::Pull(share) => {
+                if self.play.phase.has_turn(seat) {
+                    self.world.pull(Some(f64::from(share) / f64::from(u16::MAX)));
+                }
+            }
+            Action::Release => {
+                if self.play.phase.has_turn(seat) {
+                    self.world.pull(None);
+                }
+            }
+        }
+    }
+
+    fn start(&mut self) {
+        for seat in &mut self.play.seats {
+            seat.playing = seat.taken;
+            seat.score = Score::default();
+        }
+        self.emit(GameEventKind::Started);
+        if let Some(first) = self.play.seats.iter().position(|seat| seat.playing) {
+            self.begin_turn(first as u8, 1, START_PAUSE);
+        }
+    }
+
+    fn stand(&mut self, seat: u8) {
+        let had_turn = self.play.phase.has_turn(seat);
+        let place = &mut self.play.seats[usize::from(seat)];
+        (place.taken, place.playing) = (false, false);
+        self.emit(GameEventKind::StoodUp { seat });
+        if had_turn {
+            self.world.clear_balls();
+            self.next_turn();
+        }
+    }
+
+    /// The player whose turn it is gets a ball in a while.
+    fn begin_turn(&mut self, seat: u8, ball: u32, pause: f64) {
+        for right in [false, true] {
+            self.world.press(right, false);
+        }
+        self.world.pull(None);
+        self.world.clear_balls();
+        let serve_in = self.ticks(pause);
+        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0 };
+    }
+
+    fn next_turn(&mut self) {
+        let Phase::Play { seat, ball, .. } = self.play.phase else { return };
+        let playing = |from: usize, to: usize| (from..to).find(|&i| self.play.seats[i].playing);
+        let (next, ball) = match playing(usize::from(seat) + 1, SEATS) {
+            Some(next) => (Some(next), ball),
+            None => (playing(0, SEATS), ball + 1),
+        };
+        match next {
+            Some(next) if ball <= self.table.rules.balls => self.begin_turn(next as u8, ball, SERVE_PAUSE),
+            _ => {
+                for right in [false, true] {
+                    self.world.press(right, false);
+                }
+                self.world.pull(None);
+                self.play.phase = Phase::Over;
+                self.emit(GameEventKind::Over);
+            }
+        }
+    }
+
+    /// 2. Serves the ball whose pause is over.
+    fn serve_due(&mut self) {
+        let Phase::Play { seat, ball, serve_in, .. } = &mut self.play.phase else { return };
+        match serve_in {
+            0 => {}
+            1 => {
+                *serve_in = 0;
+                let (seat, ball) = (*seat, *ball);
+                self.world.serve(self.table.ball_start);
+                self.emit(GameEventKind::Served { seat, ball });
+                self.occasion(Occasion::BallStart, None);
+            }
+            _ => *serve_in -= 1,
+        }
+    }
+
+    /// 4. Runs the rules on what happened in the world.
+    fn apply_rules(&mut self) {
+        for place in 0..self.world.events().len() {
+            let event = self.world.events()[place];
+            if let Some(kind) = GameEventKind::of_physics(&event) {
+                self.emit(kind);
+            }
+            let is_play = matches!(
+                event.kind,
+                EventKind::Kicked { .. } | EventKind::Felled { .. } | EventKind::Passed { .. } | EventKind::Drained
+            );
+            if let (Phase::Play { untouched, .. }, true) = (&mut self.play.phase, is_play) {
+                *untouched = false;
+            }
+            self.occasion(Occasion::Physics(event.kind), Some(event.position.as_vec2()));
+        }
+    }
+
+    /// Runs the rules for the player whose turn it is.
+    fn occasion(&mut self, occasion: Occasion, position: Option<glam::Vec2>) {
+        let Phase::Play { seat, .. } = self.play.phase else { return };
+        let tick = self.world.state().tick;
+        let events = &mut self.events;
+        let score = &mut self.play.seats[usize::from(seat)].score;
+        rules::run(&self.table, occasion, score, &mut self.play.lights, &mut self.world, |effect| {
+            let kind = match effect {
+                Effect::Points(points) => {
+                    let (x, y) = position.map_or((f32::NAN, f32::NAN), |p| (p.x, p.y));
+                    GameEventKind::Points { seat, points, place: (!x.is_nan()).then_some((x, y)) }
+                }
+                Effect::Message(place) => GameEventKind::Message { place },
+            };
+            events.push(GameEvent { tick, kind });
+        });
+    }
+
+    /// 5. When no ball is left, the turn is over.
+    fn end_turn_when_lost(&mut self) {
+        if let Phase::Play { seat, serve_in: 0, .. } = self.play.phase
+            && self.world.state().balls.is_empty()
+        {
+            self.emit(GameEventKind::Lost { seat });
+            self.occasion(Occasion::BallEnd, None);
+            self.next_turn();
+        }
+    }
+
+    /// A ball that lies still where nobody can move it is taken out and served again.
+    fn free_stuck_ball(&mut self) {
+        let now = Instant::start_of(self.world.state().tick);
+        let scene = &self.table.scene;
+        let slow = STILL * scene.ball_radius;
+        let state = self.world.state();
+        let held = state.flippers.iter().any(|flipper| flipper.pressed);
+        let ready = |ball: &crate::physics::ball::Ball, place: glam::DVec2| match ball.support {
+            Support::Plunger(_) => true,
+            _ => scene.plungers.iter().any(|plunger| plunger.distance(0.0, place) < 2.0 * scene.ball_radius),
+        };
+        let is_still = !held
+            && !state.balls.is_empty()
+            && state.balls.iter().all(|ball| {
+                let (position, velocity) = ball.at(now, scene.tick_seconds);
+                velocity.length() < slow && !ready(ball, position)
+            });
+        let limit = self.ticks(STUCK_AFTER);
+        let Phase::Play { still, .. } = &mut self.play.phase else { return };
+        *still = if is_still { *still + 1 } else { 0 };
+        if *still >= limit {
+            *still = 0;
+            self.world.clear_balls();
+            self.world.serve(self.table.ball_start);
+            self.emit(GameEventKind::Rescued);
+        }
+    }
+
+    fn emit(&mut self, kind: GameEventKind) {
+        self.events.push(GameEvent { tick: self.world.state().tick, kind });
+    }
+}

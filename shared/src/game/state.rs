@@ -1,0 +1,78 @@
+//! Everything about a game that changes.
+
+use serde::{Deserialize, Serialize};
+
+use super::input::SEATS;
+use crate::physics::{StateError, WorldState};
+use crate::rules::Score;
+
+/// A place at the table.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Seat {
+    /// Somebody sits there.
+    pub taken: bool,
+    /// They are in the game that is being played.
+    pub playing: bool,
+    /// Their points in this game, or in the last one.
+    pub score: Score,
+}
+
+/// Where a game stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Phase {
+    /// No game was played yet.
+    #[default]
+    Idle,
+    /// Somebody's turn.
+    Play {
+        /// Whose.
+        seat: u8,
+        /// Which ball, from 1.
+        ball: u32,
+        /// Ticks until it is served; 0: it is in play.
+        serve_in: u32,
+        /// Nothing that counts has happened to it.
+        untouched: bool,
+        /// Ticks for which it has lain still.
+        still: u32,
+    },
+    /// A game has ended.
+    Over,
+}
+
+impl Phase {
+    /// Whether it is that seat's turn.
+    pub fn has_turn(&self, seat: u8) -> bool {
+        matches!(self, Self::Play { seat: turn, .. } if *turn == seat)
+    }
+}
+
+/// The part of a game's state that is not the world's.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct Play {
+    pub(super) phase: Phase,
+    pub(super) seats: [Seat; SEATS],
+    /// One bit a light.
+    pub(super) lights: u64,
+}
+
+impl Play {
+    /// Refuses a turn of a seat that does not exist.
+    pub(super) fn check(&self) -> Result<(), StateError> {
+        match self.phase {
+            Phase::Play { seat, .. } if usize::from(seat) >= SEATS => {
+                Err(StateError::Count { what: "seats", found: usize::from(seat) + 1, expected: SEATS })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// The state of a game: what is saved, sent and digested.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GameState {
+    /// Balls, flippers, plungers, targets.
+    pub world: WorldState,
+    /// Turn, seats, lights.
+    pub play: Play,
+}

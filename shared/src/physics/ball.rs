@@ -1,0 +1,106 @@
+//! The ball: its flight, its spin and what it lies on.
+
+use glam::DVec2;
+use serde::{Deserialize, Serialize};
+
+/// A moment of world time: a tick and the seconds since its start.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Instant {
+    /// Ticks since the world began.
+    pub tick: u64,
+    /// Seconds since the start of that tick, from 0 to a tick's length.
+    pub offset: f64,
+}
+
+impl Instant {
+    /// The start of a tick.
+    pub fn start_of(tick: u64) -> Self {
+        Self { tick, offset: 0.0 }
+    }
+
+    /// Seconds from `earlier` to this instant, at `tick_seconds` a tick.
+    pub fn since(self, earlier: Self, tick_seconds: f64) -> f64 {
+        let ticks = if self.tick >= earlier.tick {
+            (self.tick - earlier.tick) as f64
+        } else {
+            -((earlier.tick - self.tick) as f64)
+        };
+        ticks * tick_seconds + (self.offset - earlier.offset)
+    }
+}
+
+/// A parabola: the motion of a ball from one change of its motion to the next. A ball's position at any time is a view
+/// of this; it is never sampled and restarted, because that would change bits.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Flight {
+    /// When it began.
+    pub start: Instant,
+    /// Centre of the ball then, metres.
+    pub position: DVec2,
+    /// Velocity then, m/s.
+    pub velocity: DVec2,
+    /// Acceleration throughout, m/s^2.
+    pub acceleration: DVec2,
+}
+
+impl Flight {
+    /// Centre of the ball `t` seconds after the start.
+    pub fn position_at(&self, t: f64) -> DVec2 {
+        self.position + (self.velocity + self.acceleration * (0.5 * t)) * t
+    }
+
+    /// Velocity `t` seconds after the start.
+    pub fn velocity_at(&self, t: f64) -> DVec2 {
+        self.velocity + self.acceleration * t
+    }
+
+    /// Whether every number in it is finite.
+    pub fn is_finite(&self) -> bool {
+        self.start.offset.is_finite()
+            && self.position.is_finite()
+            && self.velocity.is_finite()
+            && self.acceleration.is_finite()
+    }
+}
+
+/// What a ball lies on, rolls along or is pushed by. Its flight's acceleration already accounts for it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Support {
+    /// Nothing: it flies.
+    None,
+    /// A straight surface, by its collider: the flight runs along it.
+    Line(u16),
+    /// A round surface, by its collider: the flight follows it for one tick at a time.
+    Arc(u16),
+    /// Nothing, but it met more surfaces within this tick than are worth following: it goes on with the next one.
+    Stalled,
+    /// Two surfaces between which it lies still.
+    Wedge(u16, u16),
+    /// A moving flipper, by its place in the scene: the flight follows it for one tick at a time.
+    Flipper(u16),
+    /// A moving plunger, likewise.
+    Plunger(u16),
+}
+
+/// A ball in play.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Ball {
+    /// Never used twice in a world.
+    pub id: u32,
+    /// Where it is and how it moves.
+    pub flight: Flight,
+    /// About the playfield's normal, rad/s, counter-clockwise.
+    pub spin: f64,
+    /// What it lies on.
+    pub support: Support,
+    /// Events of this flight up to this time (seconds since its start) and collider are past.
+    pub past: Option<(f64, u16)>,
+}
+
+impl Ball {
+    /// Centre and velocity at `instant`.
+    pub fn at(&self, instant: Instant, tick_seconds: f64) -> (DVec2, DVec2) {
+        let t = instant.since(self.flight.start, tick_seconds);
+        (self.flight.position_at(t), self.flight.velocity_at(t))
+    }
+}

@@ -1,0 +1,46 @@
+//! Every number of the engine that no table sets: with its unit, its reason, and what breaks when it changes.
+
+/// Version of the physics. A change that alters any trajectory must raise it, since scores, replays and golden digests
+/// are only valid for the version that they were made with.
+pub const PHYSICS_VERSION: u32 = 1;
+
+/// Share of a tangential force that accelerates a solid sphere which rolls along a surface: 1 / (1 + 2/5), no unit.
+/// The rest goes into its spin.
+pub const ROLLING_SHARE: f64 = 5.0 / 7.0;
+
+/// Share of the slip that friction removes before a solid sphere rolls: 2/7, no unit (Cross 2002).
+pub const SLIP_SHARE: f64 = 2.0 / 7.0;
+
+/// Moment of inertia of a solid sphere in units of m r^2.
+pub const SPHERE_INERTIA: f64 = 2.0 / 5.0;
+
+/// A ball closer to a surface than this share of the largest coordinate involved touches it. About 250 roundings of an
+/// f64: an impact leaves the ball a few roundings off the surface. Smaller: a ball sees its last impact again.
+/// Larger: a real gap of that size is taken for contact.
+pub const TOUCH: f64 = 1.0 / (1_u64 << 44) as f64;
+
+/// An approach slower than this share of the ball's speed (or a pull weaker than this share of its acceleration) is no
+/// approach but rounding. Smaller: a ball that slides along a surface hits it over and over at the same instant.
+pub const GRAZE: f64 = 1.0 / (1_u64 << 46) as f64;
+
+/// How deep inside a surface, in ball radii, a ball still counts as touching it rather than as being on its other
+/// side. Moving flippers and arcs followed tick by tick leave overlaps of some micrometres. Smaller: such a ball falls
+/// through. Larger: a ball that passes a gate from behind is caught by it.
+pub const DEEPEST_OVERLAP: f64 = 0.5;
+
+/// Length of path, in table heights, that one search for the next impact covers. Only cost depends on it.
+pub const SEARCH_LENGTH: f64 = 0.25;
+
+/// Parts of a tick into which the search for an impact with a moving flipper divides it at the least. At 20 m/s and
+/// 1 kHz a part is 0.3 mm: a graze shallower than a micrometre can be missed, a crossing cannot.
+pub const MOVER_PARTS: u32 = 64;
+
+/// Halvings by which an impact with a moving flipper is located within such a part: 1 ms / 64 / 2^40 is 1e-17 s.
+pub const MOVER_HALVINGS: u32 = 40;
+
+/// Impacts of one ball within one tick after which it is taken to lie still for the rest of that tick. Infinitely many
+/// impacts in finite time (a ball in a V) end here if the table's rest speed has not ended them before.
+pub const MOST_IMPACTS_PER_TICK: u32 = 200;
+
+/// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
+pub const FLIPPER_STOP_SPEED: f64 = 1.0;

@@ -1,0 +1,217 @@
+//! Contact: what an impact does to a ball, and what a ball lies on afterwards.
+
+use glam::DVec2;
+
+use super::ball::Support;
+use super::constants::{ROLLING_SHARE, SLIP_SHARE, SPHERE_INERTIA};
+use super::scene::{Collider, Material, Scene};
+use super::shapes::{Shape, Side};
+use crate::math::tangent;
+
+/// The surface that a ball meets, as it is at the moment and point of impact.
+#[derive(Debug, Clone, Copy)]
+pub struct Surface {
+    /// Unit normal towards the ball.
+    pub normal: DVec2,
+    /// Velocity of the surface's point, m/s.
+    pub velocity: DVec2,
+    /// What it is made of.
+    pub material: Material,
+    /// Inverse of the mass that the surface's point opposes to a push along the normal, 1/kg; 0 if it cannot move.
+    pub inverse_mass: f64,
+    /// Normal speed that it adds, m/s.
+    pub kick: f64,
+}
+
+/// What an impact did.
+#[derive(Debug, Clone, Copy)]
+pub struct Response {
+    /// The ball's velocity after it, m/s.
+    pub velocity: DVec2,
+    /// The ball's spin after it, rad/s.
+    pub spin: f64,
+    /// Push on the ball along the normal, N s; the surface got the opposite.
+    pub impulse: f64,
+}
+
+/// The impulse that ends an approach: restitution along the normal, Coulomb friction along the surface, up to the
+/// point where the ball rolls (Cross 2002, "Grip-slip behavior of a bouncing ball"; a solid sphere).
+pub fn respond(velocity: DVec2, spin: f64, radius: f64, mass: f64, surface: &Surface) -> Response {
+    let along = tangent(surface.normal);
+    let relative = velocity - surface.velocity;
+    // Two surfaces that merely touch may seem to part by a rounding.
+    let approach = -relative.dot(surface.normal);
+    let approach = if approach > 0.0 { approach } else { 0.0 };
+    let restitution = surface.material.restitution_at(approach);
+    let impulse = ((1.0 + restitution) * approach + surface.kick) / (1.0 / mass + surface.inverse_mass);
+    let pushed = impulse / mass;
+
+    let slip = relative.dot(along) + spin * radius;
+    let most = surface.material.friction * pushed;
+    let change = -(SLIP_SHARE * slip).clamp(-most, most);
+    Response {
+        velocity: velocity + surface.normal * pushed + along * change,
+        spin: spin + change / (SPHERE_INERTIA * radius),
+        impulse,
+    }
+}
+
+/// A surface that a ball touches.
+#[derive(Debug, Clone, Copy)]
+struct Touch {
+    collider: u16,
+    normal: DVec2,
+    /// Away from the centre of curvature when positive: 1 / radius of the path that the ball's centre would follow.
+    curvature: f64,
+    friction: f64,
+    round: bool,
+}
+
+impl Touch {
+    fn new(scene: &Scene, collider: u16, position: DVec2) -> Self {
+        let Collider { shape, material, .. } = &scene.colliders[usize::from(collider)];
+        let (curvature, round) = match shape {
+            Shape::Segment(_) => (0.0, false),
+            Shape::Arc(arc) => {
+                let path = arc.reach(scene.ball_radius);
+                (if arc.side == Side::Outside { 1.0 / path } else { -1.0 / path }, true)
+            }
+        };
+        Self { collider, normal: shape.normal_at(position), curvature, friction: material.friction, round }
+    }
+
+    /// Acceleration with which a ball that moves along the surface is pressed against it; not positive: it lifts off.
+    fn press(&self, gravity: DVec2, velocity: DVec2) -> f64 {
+        let speed = velocity.dot(tangent(self.normal));
+        -gravity.dot(self.normal) - self.curvature * speed * speed
+    }
+
+    /// Acceleration of a ball that moves along the surface.
+    fn acceleration(&self, gravity: DVec2, velocity: DVec2) -> DVec2 {
+        let along = tangent(self.normal);
+        let speed = velocity.dot(along);
+        let share = if self.friction > 0.0 { ROLLING_SHARE } else { 1.0 };
+        along * (gravity.dot(along) * share) - self.normal * (self.curvature * speed * speed)
+    }
+
+    /// Whether two surfaces meet smoothly here: the same normal, but for a thousandth of a radian.
+    fn continues(&self, other: &Self) -> bool {
+        self.normal.dot(other.normal) > 1.0 - 1e-6
+    }
+
+    fn support(&self) -> Support {
+        if self.round { Support::Arc(self.collider) } else { Support::Line(self.collider) }
+    }
+}
+
+/// How a ball goes on.
+#[derive(Debug, Clone, Copy)]
+pub struct Settled {
+    /// Velocity, without what the support takes away.
+    pub velocity: DVec2,
+    /// Acceleration until the next change.
+    pub acceleration: DVec2,
+    /// Spin: that of rolling, where the ball rolls.
+    pub spin: f64,
+    /// What it lies on now.
+    pub support: Support,
+}
+
+/// Decides how a ball goes on that touches the collider `hit` and, until now, lay on `before`.
+pub fn settle(
+    scene: &Scene,
+    position: DVec2,
+    velocity: DVec2,
+    spin: f64,
+    hit: Option<u16>,
+    before: Option<u16>,
+) -> Settled {
+    let free = Settled { velocity, acceleration: scene.gravity, spin, support: Support::None };
+    let mut velocity = velocity;
+    let mut held: [Option<Touch>; 2] = [None, None];
+    for (place, collider) in held.iter_mut().zip([hit, before]) {
+        let Some(touch) = collider.map(|collider| Touch::new(scene, collider, position)) else { continue };
+        let speed = velocity.dot(touch.normal);
+        // `hit` was just met, so it is not approached; `before` may be pressed into by the new velocity: then the next
+        // search finds an impact with it.
+        if speed <= scene.rest_speed && speed >= -scene.rest_speed {
+            velocity -= touch.normal * speed;
+            *place = Some(touch);
+        }
+    }
+    let [first, second] = held;
+    let mut pressed_by_any = false;
+    for (touch, other) in [(first, second), (second, first)] {
+        let Some(touch) = touch else { continue };
+        if touch.press(scene.gravity, velocity) <= 0.0 {
+            continue;
+        }
+        pressed_by_any = true;
+        let along = tangent(touch.normal);
+        let speed = velocity.dot(along);
+        let slid = along * speed;
+        let acceleration = touch.acceleration(scene.gravity, slid);
+        if other.is_none_or(|other| touch.continues(&other) || clears(&other, slid, acceleration, scene.rest_speed)) {
+            let spin = if touch.friction > 0.0 { -speed / scene.ball_radius } else { spin };
+            return Settled { velocity: slid, acceleration, spin, support: touch.support() };
+        }
+    }
+    match (first, second) {
+        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= 4.0 * scene.rest_speed => Settled {
+            velocity: DVec2::ZERO,
+            acceleration: DVec2::ZERO,
+            spin: 0.0,
+            support: Support::Wedge(first.collider, second.collider),
+        },
+        _ => Settled { velocity, ..free },
+    }
+}
+
+/// Whether a ball that slides with this velocity and acceleration does not run into `other`.
+fn clears(other: &Touch, velocity: DVec2, acceleration: DVec2, rest_speed: f64) -> bool {
+    let speed = velocity.dot(other.normal);
+    let pull = acceleration.dot(other.normal) + other.curvature * velocity.length_squared();
+    speed > rest_speed || (speed >= -1e-12 * velocity.length() && pull >= -1e-12 * acceleration.length())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RUBBER: Material = Material { restitution: 0.8, falloff: 0.3, friction: 0.6 };
+
+    fn floor(material: Material) -> Surface {
+        Surface { normal: DVec2::Y, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick: 0.0 }
+    }
+
+    #[test]
+    fn restitution_falls_with_speed() {
+        let surface = floor(Material { friction: 0.0, ..RUBBER });
+        let after = respond(DVec2::new(1.0, -2.0), 0.0, 0.0135, 0.08, &surface);
+        assert_eq!(after.velocity, DVec2::new(1.0, 2.0 * (0.8 / 1.6)));
+        assert_eq!(after.spin, 0.0);
+    }
+
+    #[test]
+    fn friction_ends_in_rolling_and_never_reverses_the_slip() {
+        let after = respond(DVec2::new(0.5, -2.0), 0.0, 0.0135, 0.08, &floor(RUBBER));
+        let slip = after.velocity.x + after.spin * 0.0135;
+        assert!(slip.abs() < 1e-15, "slip {slip}");
+        assert!((after.velocity.x - 0.5 * 5.0 / 7.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn friction_is_bounded_by_the_push() {
+        let after = respond(DVec2::new(50.0, -0.1), 0.0, 0.0135, 0.08, &floor(RUBBER));
+        let pushed = 0.1 * (1.0 + RUBBER.restitution_at(0.1));
+        assert!((50.0 - after.velocity.x - 0.6 * pushed).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_movable_surface_shares_the_impulse() {
+        let surface =
+            Surface { inverse_mass: 1.0 / 0.08, ..floor(Material { restitution: 1.0, falloff: 0.0, friction: 0.0 }) };
+        let after = respond(DVec2::new(0.0, -1.0), 0.0, 0.0135, 0.08, &surface);
+        assert!(after.velocity.length() < 1e-15, "equal masses swap velocities");
+    }
+}

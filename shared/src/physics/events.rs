@@ -1,0 +1,345 @@
+//! What happens within a tick, in order of time: impacts, sensors, ends of support, end stops.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::ball::{Flight, Instant, Support};
+use super::constants::MOST_IMPACTS_PER_TICK;
+use super::contact::{Surface, respond, settle};
+use super::flipper::FlipperRest;
+use super::motion::Next;
+use super::movers::{BallInTick, first_impact};
+use super::scene::Role;
+use super::state::TargetState;
+use super::world::{Event, EventKind, World};
+
+/// One thing that happens within a tick.
+#[derive(Debug, Clone, Copy)]
+enum Happening {
+    /// A ball's event among the static shapes.
+    Static(usize, Next),
+    /// A ball meets a moving flipper.
+    Flipper(usize, usize, DVec2),
+    /// A ball meets a moving plunger.
+    Plunger(usize, usize, DVec2),
+    /// A flipper reaches an end stop, `true`: the upper one.
+    FlipperStop(usize, bool),
+    /// A plunger that was let go reaches home.
+    PlungerHome(usize),
+}
+
+impl World {
+    /// Everything that happens in this tick, in order of time.
+    pub(super) fn run_events(&mut self) {
+        let mut clock = 0.0;
+        while let Some((offset, happening)) = self.earliest(clock) {
+            clock = offset;
+            match happening {
+                Happening::Static(ball, next) => self.meet_static(ball, next, offset),
+                Happening::Flipper(ball, flipper, normal) => self.meet_flipper(ball, flipper, normal, offset),
+                Happening::Plunger(ball, plunger, normal) => self.meet_plunger(ball, plunger, normal, offset),
+                Happening::FlipperStop(flipper, raised) => self.stop_flipper(flipper, raised, offset),
+                Happening::PlungerHome(plunger) => self.stop_plunger(plunger, offset),
+            }
+        }
+    }
+
+    /// What happens next at or after `clock` in this tick.
+    fn earliest(&mut self, clock: f64) -> Option<(f64, Happening)> {
+        let mut limit = self.scene.tick_seconds;
+        let mut earliest = None;
+        for ball in 0..self.state.balls.len() {
+            if let Some((offset, next)) = self.next_static(ball)
+                && offset < limit
+            {
+                limit = offset;
+                earliest = Some((if offset > clock { offset } else { clock }, Happening::Static(ball, next)));
+            }
+            if let Some((offset, happening)) = self.next_mover(ball, clock, limit) {
+                limit = offset;
+                earliest = Some((offset, happening));
+            }
+        }
+        for index in 0..self.flipper_motions.len() {
+            if let Some((offset, raised)) =
+                self.moving_flipper(index).and_then(|flipper| flipper.meets_stop(clock, limit))
+            {
+                limit = offset;
+                earliest = Some((offset, Happening::FlipperStop(index, raised)));
+            }
+        }
+        for index in 0..self.plunger_motions.len() {
+            if let Some(offset) = self.plunger_comes_home(index, clock, limit) {
+                limit = offset;
+                earliest = Some((offset, Happening::PlungerHome(index)));
+            }
+        }
+        earliest
+    }
+
+    /// The first impact of a ball with a moving flipper or plunger within the offsets `clock..limit`.
+    fn next_mover(&self, ball: usize, clock: f64, limit: f64) -> Option<(f64, Happening)> {
+        let dt = self.scene.tick_seconds;
+        let subject = &self.state.balls[ball];
+        let elapsed = Instant::start_of(self.state.tick).since(subject.flight.start, dt);
+        let in_tick = BallInTick { flight: &subject.flight, elapsed, radius: self.scene.ball_radius };
+        let mut limit = limit;
+        let mut first = None;
+        for index in 0..self.flipper_motions.len() {
+            let Some(flipper) = self.moving_flipper(index) else { continue };
+            let travel = (subject.flight.velocity_at(elapsed).length() + 1.0) * dt;
+            let distance = (subject.flight.position_at(elapsed) - flipper.spec.pivot).length();
+            if subject.support == Support::Flipper(index as u16)
+                || distance > flipper.spec.reach() + self.scene.ball_radius + travel
+            {
+                continue;
+            }
+            if let Some((offset, normal)) = first_impact(&in_tick, &flipper, clock, limit, dt) {
+                limit = offset;
+                first = Some((offset, Happening::Flipper(ball, index, normal)));
+            }
+        }
+        for index in 0..self.plunger_motions.len() {
+            let Some(plunger) = self.moving_plunger(index) else { continue };
+            if subject.support == Support::Plunger(index as u16) {
+                continue;
+            }
+            if let Some((offset, normal)) = first_impact(&in_tick, &plunger, clock, limit, dt) {
+                limit = offset;
+                first = Some((offset, Happening::Plunger(ball, index, normal)));
+            }
+        }
+        first
+    }
+
+    fn plunger_comes_home(&self, index: usize, clock: f64, limit: f64) -> Option<f64> {
+        let motion = self.plunger_motions[index]?;
+        if self.state.plungers[index].hand.is_some() {
+            return None;
+        }
+        if motion.pull_at(clock) <= 0.0 {
+            return (clock < limit).then_some(clock);
+        }
+        let roots = crate::math::roots::quadratic([motion.pull, motion.speed, 0.5 * motion.acceleration]);
+        roots.as_slice().iter().map(|t| motion.from + t).find(|&offset| offset > clock && offset < limit)
+    }
+
+    /// A ball's event among the static shapes.
+    fn meet_static(&mut self, ball: usize, next: Next, offset: f64) {
+        let t = next.time();
+        let flight = self.state.balls[ball].flight;
+        let position = flight.position_at(t);
+        if self.is_outside(position) {
+            self.take_out(ball, offset, position, EventKind::Escaped);
+            return;
+        }
+        match next {
+            Next::ClearUntil(_) => {}
+            Next::LeavesSupport(_) => {
+                self.start_flight(ball, offset, position, flight.velocity_at(t), None, None);
+            }
+            Next::Meets(_, index) => {
+                let collider = self.scene.colliders[usize::from(index)];
+                match collider.role {
+                    Role::Sensor => {
+                        self.state.balls[ball].past = Some((t, index));
+                        self.next[ball] = None;
+                        self.emit(ball, offset, position, EventKind::Passed { element: collider.element });
+                    }
+                    Role::Drain => self.take_out(ball, offset, position, EventKind::Drained),
+                    Role::Solid | Role::Kicker { .. } | Role::Target { .. } => {
+                        self.bounce(ball, index, offset, position, flight.velocity_at(t));
+                    }
+                }
+            }
+        }
+    }
+
+    /// An impact with a static shape.
+    fn bounce(&mut self, ball: usize, index: u16, offset: f64, position: DVec2, velocity: DVec2) {
+        self.impacts[ball] += 1;
+        if self.impacts[ball] > MOST_IMPACTS_PER_TICK {
+            self.stall(ball, offset, position);
+            return;
+        }
+        let scene = Arc::clone(&self.scene);
+        let collider = &scene.colliders[usize::from(index)];
+        let element = collider.element;
+        let normal = collider.shape.normal_at(position);
+        let speed = -velocity.dot(normal);
+        let mut kick = 0.0;
+        let mut kind = EventKind::Touched { element, speed };
+        match collider.role {
+            Role::Kicker { speed: added, threshold } if speed >= threshold => {
+                kick = added;
+                kind = EventKind::Kicked { element, speed };
+            }
+            Role::Target { threshold, .. } if speed >= threshold => kind = EventKind::Felled { element, speed },
+            _ => {}
+        }
+        if speed > scene.rest_speed {
+            self.emit(ball, offset, position, kind);
+        }
+        let surface = Surface { normal, velocity: DVec2::ZERO, material: collider.material, inverse_mass: 0.0, kick };
+        let after = respond(velocity, self.state.balls[ball].spin, scene.ball_radius, scene.ball_mass, &surface);
+        self.state.balls[ball].spin = after.spin;
+        let before = match self.state.balls[ball].support {
+            Support::Line(i) | Support::Arc(i) => Some(i),
+            _ => None,
+        };
+        self.start_flight(ball, offset, position, after.velocity, Some(index), before);
+        if let (Role::Target { index: target, .. }, EventKind::Felled { .. }) = (collider.role, kind) {
+            self.state.targets[usize::from(target)] = TargetState::Down;
+            self.forget_nexts(Instant { tick: self.state.tick, offset });
+        }
+    }
+
+    /// Too many impacts within one tick: the ball waits for the next one.
+    fn stall(&mut self, ball: usize, offset: f64, position: DVec2) {
+        let start = Instant { tick: self.state.tick, offset };
+        let ball_state = &mut self.state.balls[ball];
+        ball_state.flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: DVec2::ZERO };
+        ball_state.support = Support::Stalled;
+        ball_state.past = Some((0.0, u16::MAX));
+        self.next[ball] = Some(Next::ClearUntil(f64::INFINITY));
+    }
+
+    fn meet_flipper(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
+        let Some(flipper) = self.moving_flipper(index) else { return };
+        let (position, velocity) = self.ball_at(ball, offset);
+        let surface = super::movers::Mover::surface(&flipper, offset, position, normal, self.scene.ball_radius);
+        let contact = position - normal * self.scene.ball_radius;
+        let lever = flipper.lever(contact, normal);
+        let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
+        let after = self.push_by(ball, offset, position, velocity, &surface, element);
+        motion.swing = motion.swing_at(offset);
+        motion.speed = motion.speed_at(offset) - after.impulse * lever / inertia;
+        motion.from = offset;
+        self.flipper_motions[index] = Some(motion);
+        let (turned, speed) = (motion.swing, motion.speed);
+        let flipper = &mut self.state.flippers[index];
+        (flipper.swing, flipper.speed) = (turned, speed);
+        self.leave_mover(ball, offset, position, after.velocity, normal, Support::Flipper(index as u16));
+    }
+
+    fn meet_plunger(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
+        let Some(plunger) = self.moving_plunger(index) else { return };
+        let (position, velocity) = self.ball_at(ball, offset);
+        let surface = super::movers::Mover::surface(&plunger, offset, position, normal, self.scene.ball_radius);
+        let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
+        let after = self.push_by(ball, offset, position, velocity, &surface, element);
+        motion.pull = motion.pull_at(offset);
+        motion.speed = motion.speed_at(offset) + if held { 0.0 } else { after.impulse / mass };
+        motion.from = offset;
+        self.plunger_motions[index] = Some(motion);
+        self.leave_mover(ball, offset, position, after.velocity, normal, Support::Plunger(index as u16));
+    }
+
+    /// The impulse between a ball and a moving surface.
+    fn push_by(
+        &mut self,
+        ball: usize,
+        offset: f64,
+        position: DVec2,
+        velocity: DVec2,
+        surface: &Surface,
+        element: u16,
+    ) -> super::contact::Response {
+        self.impacts[ball] += 1;
+        let speed = (surface.velocity - velocity).dot(surface.normal);
+        // Too many impacts within one tick: the rest of them takes all of the bounce.
+        let mut surface = *surface;
+        if self.impacts[ball] > MOST_IMPACTS_PER_TICK / 4 {
+            surface.material.restitution = 0.0;
+        }
+        if speed > self.scene.rest_speed {
+            self.emit(ball, offset, position, EventKind::Touched { element, speed });
+        }
+        let subject = &mut self.state.balls[ball];
+        let after = respond(velocity, subject.spin, self.scene.ball_radius, self.scene.ball_mass, &surface);
+        subject.spin = after.spin;
+        after
+    }
+
+    /// After an impact with a moving surface: the ball flies off, or stays on it if it is slow.
+    fn leave_mover(
+        &mut self,
+        ball: usize,
+        offset: f64,
+        position: DVec2,
+        velocity: DVec2,
+        normal: DVec2,
+        support: Support,
+    ) {
+        self.start_flight(ball, offset, position, velocity, None, None);
+        let contact = position - normal * self.scene.ball_radius;
+        let surface_velocity = self.mover_velocity(support, offset, contact);
+        let leaving = (velocity - surface_velocity).dot(normal);
+        let stuck = self.impacts[ball] > MOST_IMPACTS_PER_TICK / 4;
+        if leaving <= self.scene.rest_speed || stuck {
+            self.state.balls[ball].support = support;
+            self.follow_surface(ball, offset);
+        }
+    }
+
+    fn stop_flipper(&mut self, index: usize, raised: bool, offset: f64) {
+        let Some(mut motion) = self.flipper_motions[index] else { return };
+        let spec = &self.scene.flippers[index];
+        let (swing, speed, rest) = spec.at_stop(raised, motion.speed_at(offset));
+        let flipper = &mut self.state.flippers[index];
+        (flipper.swing, flipper.speed, flipper.rest) = (swing, speed, rest);
+        if rest == FlipperRest::Moving {
+            (motion.swing, motion.speed, motion.from) = (swing, speed, offset);
+            self.flipper_motions[index] = Some(motion);
+        } else {
+            self.flipper_motions[index] = None;
+        }
+        self.flipper_changed(index, offset, false);
+    }
+
+    fn stop_plunger(&mut self, index: usize, offset: f64) {
+        let plunger = &mut self.state.plungers[index];
+        (plunger.home, plunger.pull, plunger.speed) = (true, 0.0, 0.0);
+        self.plunger_motions[index] = None;
+        self.plunger_changed(index, offset, false);
+    }
+
+    /// Begins a new flight, along whatever the ball lies on after touching `hit` and lying on `before`.
+    pub(super) fn start_flight(
+        &mut self,
+        ball: usize,
+        offset: f64,
+        position: DVec2,
+        velocity: DVec2,
+        hit: Option<u16>,
+        before: Option<u16>,
+    ) {
+        let spin = self.state.balls[ball].spin;
+        let settled = settle(&self.scene, position, velocity, spin, hit, before);
+        let start = Instant { tick: self.state.tick, offset };
+        let subject = &mut self.state.balls[ball];
+        subject.flight = Flight { start, position, velocity: settled.velocity, acceleration: settled.acceleration };
+        subject.spin = settled.spin;
+        subject.support = settled.support;
+        subject.past = None;
+        self.next[ball] = None;
+    }
+
+    fn take_out(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {
+        self.emit(ball, offset, position, kind);
+        self.state.balls.remove(ball);
+        self.next.remove(ball);
+        self.impacts.remove(ball);
+    }
+
+    fn emit(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {
+        let at = Instant { tick: self.state.tick, offset };
+        self.events.push(Event { at, ball: self.state.balls[ball].id, position, kind });
+    }
+
+    /// Centre and velocity of a ball at an offset within this tick.
+    pub(super) fn ball_at(&self, ball: usize, offset: f64) -> (DVec2, DVec2) {
+        self.state.balls[ball].at(Instant { tick: self.state.tick, offset }, self.scene.tick_seconds)
+    }
+}

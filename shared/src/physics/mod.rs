@@ -1,0 +1,20 @@
+//! The physics: balls among static shapes, flippers and plungers. It emits events and takes commands; it knows no score.
+
+pub mod ball;
+pub mod constants;
+pub mod contact;
+mod events;
+pub mod flipper;
+mod follow;
+pub mod impact;
+pub mod motion;
+mod movers;
+pub mod plunger;
+pub mod scene;
+pub mod shapes;
+mod state;
+mod world;
+
+pub use constants::PHYSICS_VERSION;
+pub use state::{MOST_BALLS, MOST_PARTS, StateError, TargetState, WorldState};
+pub use world::{Event, EventKind, World};

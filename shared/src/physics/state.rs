@@ -1,0 +1,155 @@
+//! Everything about a world that changes: what is saved, sent and digested.
+
+use serde::{Deserialize, Serialize};
+use thiserror::Error;
+
+use super::ball::{Ball, Support};
+use super::flipper::FlipperState;
+use super::plunger::PlungerState;
+use super::scene::{Collider, Presence, Scene};
+use super::shapes::Shape;
+use crate::math::bounded;
+use crate::physics::flipper::FlipperRest;
+
+/// Most balls in play at once.
+pub const MOST_BALLS: usize = 16;
+/// Most flippers, plungers or targets on a table.
+pub const MOST_PARTS: usize = 64;
+
+/// A target that can fall.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum TargetState {
+    /// Stands.
+    Up,
+    /// Has fallen.
+    Down,
+    /// Was told to rise, and does as soon as no ball is in its way.
+    Rising,
+}
+
+/// The state of a world.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WorldState {
+    /// Ticks since the world began.
+    pub tick: u64,
+    /// Balls served so far: the next one's id.
+    pub served: u32,
+    /// Balls in play.
+    #[serde(deserialize_with = "bounded::list::<_, _, MOST_BALLS>")]
+    pub balls: Vec<Ball>,
+    /// In the scene's order.
+    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
+    pub flippers: Vec<FlipperState>,
+    /// In the scene's order.
+    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
+    pub plungers: Vec<PlungerState>,
+    /// In the scene's order.
+    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
+    pub targets: Vec<TargetState>,
+}
+
+/// Why a state was refused.
+#[derive(Debug, Clone, PartialEq, Eq, Error)]
+pub enum StateError {
+    /// A list has not the table's length.
+    #[error("the state has {found} {what}, the table has {expected}")]
+    Count {
+        /// Flippers, plungers or targets.
+        what: &'static str,
+        /// In the state.
+        found: usize,
+        /// In the table.
+        expected: usize,
+    },
+    /// NaN, an infinity, or a moment that is not within a tick.
+    #[error("{what} {index} has a number that is not finite or out of range")]
+    Number {
+        /// Ball, flipper or plunger.
+        what: &'static str,
+        /// Its place in the state.
+        index: usize,
+    },
+    /// A reference to something that the table has not.
+    #[error("ball {index} lies on something that the table has not")]
+    Support {
+        /// The ball's place in the state.
+        index: usize,
+    },
+}
+
+impl WorldState {
+    /// The state of a world in which nothing has happened.
+    pub fn new(scene: &Scene) -> Self {
+        Self {
+            tick: 0,
+            served: 0,
+            balls: Vec::with_capacity(MOST_BALLS),
+            flippers: vec![FlipperState::default(); scene.flippers.len()],
+            plungers: vec![PlungerState::default(); scene.plungers.len()],
+            targets: vec![TargetState::Up; usize::from(scene.targets)],
+        }
+    }
+
+    /// Whether a collider is there.
+    pub fn has(&self, collider: &Collider) -> bool {
+        match collider.presence {
+            Presence::Always => true,
+            Presence::TargetUp(i) => self.targets[usize::from(i)] == TargetState::Up,
+            Presence::FlipperAtRest(i) => self.flippers[usize::from(i)].rest == FlipperRest::AtRest,
+            Presence::FlipperRaised(i) => self.flippers[usize::from(i)].rest == FlipperRest::Raised,
+            Presence::PlungerHome(i) => self.plungers[usize::from(i)].home,
+        }
+    }
+
+    /// Checks a state that came from outside against the scene that it is for.
+    ///
+    /// # Errors
+    /// The first thing found wrong.
+    pub fn check(&self, scene: &Scene) -> Result<(), StateError> {
+        let counts = [
+            ("flippers", self.flippers.len(), scene.flippers.len()),
+            ("plungers", self.plungers.len(), scene.plungers.len()),
+            ("targets", self.targets.len(), usize::from(scene.targets)),
+        ];
+        for (what, found, expected) in counts {
+            if found != expected {
+                return Err(StateError::Count { what, found, expected });
+            }
+        }
+        for (index, ball) in self.balls.iter().enumerate() {
+            self.check_ball(scene, index, ball)?;
+        }
+        for (index, flipper) in self.flippers.iter().enumerate() {
+            if !(flipper.swing.is_finite() && flipper.speed.is_finite() && flipper.coil_time.is_finite()) {
+                return Err(StateError::Number { what: "flipper", index });
+            }
+        }
+        for (index, plunger) in self.plungers.iter().enumerate() {
+            let hand = plunger.hand.unwrap_or(0.0);
+            if !(plunger.pull.is_finite() && plunger.speed.is_finite() && (0.0..=1.0).contains(&hand)) {
+                return Err(StateError::Number { what: "plunger", index });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_ball(&self, scene: &Scene, index: usize, ball: &Ball) -> Result<(), StateError> {
+        let number = StateError::Number { what: "ball", index };
+        let start = ball.flight.start;
+        let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
+        let past_is_a_number = ball.past.is_none_or(|(t, _)| !t.is_nan());
+        if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number) {
+            return Err(number);
+        }
+        let collider = |i: u16| scene.colliders.get(usize::from(i));
+        let known = match ball.support {
+            Support::None | Support::Stalled => true,
+            Support::Line(i) => collider(i).is_some_and(|c| matches!(c.shape, Shape::Segment(_))),
+            Support::Arc(i) => collider(i).is_some_and(|c| matches!(c.shape, Shape::Arc(_))),
+            Support::Wedge(i, j) => collider(i).is_some() && collider(j).is_some(),
+            Support::Flipper(i) => usize::from(i) < scene.flippers.len(),
+            Support::Plunger(i) => usize::from(i) < scene.plungers.len(),
+        };
+        if known { Ok(()) } else { Err(StateError::Support { index }) }
+    }
+}

@@ -1,0 +1,403 @@
+//! The written form of a table: what a RON file says, before anything is checked. `check` turns it into a [`Table`].
+//!
+//! Lengths in metres, angles in degrees clockwise from +y (up the table), so that a left-hand and a right-hand
+//! element of the same angle are exact mirror images. See `shared/tables/README.md` for a description by example.
+//!
+//! [`Table`]: super::Table
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+/// A point or vector as written: `(x, y)` in metres, x right and y up the table.
+pub type Point = (f64, f64);
+
+/// A whole table file.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TableFile {
+    /// Version of this format; see [`super::FORMAT_VERSION`].
+    pub format: u32,
+    /// Version of the physics that the table was made for; see [`crate::physics::PHYSICS_VERSION`].
+    pub physics: u32,
+    /// Shown to players.
+    pub name: String,
+    /// Width and height of the playfield.
+    pub size: Point,
+    /// World ticks a second.
+    #[serde(default = "default_tick_hz")]
+    pub tick_hz: u32,
+    /// Acceleration of a ball that rolls on the playfield, m/s^2.
+    pub gravity: Point,
+    /// Normal speed after an impact below which the ball stays in contact, m/s.
+    pub rest_speed: f64,
+    /// The ball, and where one is served.
+    pub ball: BallFile,
+    /// Surfaces by name.
+    pub materials: BTreeMap<String, MaterialFile>,
+    /// Everything on the playfield.
+    pub elements: Vec<ElementFile>,
+    /// Named sets of elements that rules speak of as one.
+    #[serde(default)]
+    pub groups: BTreeMap<String, Vec<String>>,
+    /// What happens when.
+    pub rules: RulesFile,
+}
+
+fn default_tick_hz() -> u32 {
+    1000
+}
+
+/// The ball.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallFile {
+    /// Metres.
+    pub radius: f64,
+    /// Kilograms.
+    pub mass: f64,
+    /// Where a ball is served, at rest.
+    pub start: Point,
+}
+
+/// A surface.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MaterialFile {
+    /// Share of the normal speed that an impact returns at vanishing speed.
+    pub restitution: f64,
+    /// The restitution falls with normal speed v: e / (1 + falloff v). Seconds per metre.
+    #[serde(default)]
+    pub falloff: f64,
+    /// Coulomb coefficient.
+    #[serde(default)]
+    pub friction: f64,
+}
+
+/// Which side of the table a flipper belongs to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Serialize, Deserialize)]
+pub enum Hand {
+    /// Pivot at the left, tip to the right.
+    Left,
+    /// The mirror image.
+    Right,
+}
+
+/// Colour of an insert. The client owns the exact shades.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum LightColor {
+    /// Warm yellow.
+    Amber,
+    /// Signal red.
+    Red,
+    /// Ice blue.
+    Blue,
+    /// Mint green.
+    Green,
+    /// White.
+    White,
+}
+
+/// One thing on the playfield.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub enum ElementFile {
+    /// A polyline that stops a ball from both sides. First point = last point closes it into an island.
+    Wall(WallFile),
+    /// A curved wall.
+    Arc(ArcFile),
+    /// A round post.
+    Post(PostFile),
+    /// A wall that a ball passes from one side only.
+    Gate(GateFile),
+    /// A round kicker.
+    Bumper(BumperFile),
+    /// A straight kicker.
+    Slingshot(SlingshotFile),
+    /// A target that falls when hit and is raised again by a rule.
+    DropTarget(DropTargetFile),
+    /// A line that notices a ball passing.
+    Rollover(LineFile),
+    /// The line below which a ball is lost.
+    Drain(LineFile),
+    /// A bat driven by a coil.
+    Flipper(FlipperFile),
+    /// The spring that launches a ball.
+    Plunger(PlungerFile),
+    /// An insert that rules switch on and off.
+    Light(LightFile),
+}
+
+/// See [`ElementFile::Wall`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WallFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Two or more.
+    pub points: Vec<Point>,
+}
+
+/// See [`ElementFile::Arc`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArcFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Of the circle.
+    pub center: Point,
+    /// Of the circle.
+    pub radius: f64,
+    /// First end, degrees clockwise from +y.
+    pub from: f64,
+    /// Second end, clockwise of the first, at most 360 further.
+    pub to: f64,
+}
+
+/// See [`ElementFile::Post`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PostFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Centre.
+    pub center: Point,
+    /// Metres.
+    pub radius: f64,
+}
+
+/// See [`ElementFile::Gate`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GateFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// First end.
+    pub from: Point,
+    /// Second end. Looking from the first to the second, a ball passes from left to right and is stopped from the right.
+    pub to: Point,
+}
+
+/// See [`ElementFile::Bumper`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BumperFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Centre.
+    pub center: Point,
+    /// Metres.
+    pub radius: f64,
+    /// Normal speed that a kick adds, m/s.
+    pub kick: f64,
+    /// Normal speed of approach above which it kicks, m/s.
+    pub threshold: f64,
+}
+
+/// See [`ElementFile::Slingshot`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SlingshotFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// First end of the rubber.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// Normal speed that a kick adds, m/s.
+    pub kick: f64,
+    /// Normal speed of approach above which it kicks, m/s.
+    pub threshold: f64,
+}
+
+/// See [`ElementFile::DropTarget`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DropTargetFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// First end of the face.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// Normal speed of approach above which it falls, m/s.
+    pub threshold: f64,
+}
+
+/// See [`ElementFile::Rollover`] and [`ElementFile::Drain`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LineFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+}
+
+/// See [`ElementFile::Flipper`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FlipperFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Which button drives it, and which way it points.
+    pub hand: Hand,
+    /// Axis of rotation.
+    pub pivot: Point,
+    /// From the pivot to the centre of the tip.
+    pub length: f64,
+    /// Radius at the pivot.
+    pub base_radius: f64,
+    /// Radius at the tip.
+    pub tip_radius: f64,
+    /// Angle from +y towards the flipper's own side at rest, degrees.
+    pub rest: f64,
+    /// The same at the end of the stroke; smaller than `rest`.
+    pub raised: f64,
+    /// About the pivot, kg m^2.
+    pub inertia: f64,
+    /// Of the coil at full strength, N m.
+    pub torque: f64,
+    /// Seconds that the coil takes to full strength.
+    pub ramp: f64,
+    /// Share of the torque that holds the flipper near the end of its stroke.
+    pub hold: f64,
+    /// How near, degrees.
+    pub hold_within: f64,
+    /// Share of the torque with which the spring pulls it back.
+    pub return_share: f64,
+    /// Share of its speed that a flipper keeps when it bounces off an end stop.
+    pub stop_restitution: f64,
+}
+
+/// See [`ElementFile::Plunger`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PlungerFile {
+    /// Unique in the table.
+    pub name: String,
+    /// A key of `materials`.
+    pub material: String,
+    /// Left end of the head's face when nothing pulls it.
+    pub from: Point,
+    /// Right end.
+    pub to: Point,
+    /// How far it can be pulled, metres.
+    pub stroke: f64,
+    /// Of rod and head, kg.
+    pub mass: f64,
+    /// Force at full pull, N; it grows linearly with the pull, so the energy is bounded.
+    pub force: f64,
+    /// How fast a hand moves it, m/s.
+    pub hand_speed: f64,
+}
+
+/// See [`ElementFile::Light`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LightFile {
+    /// Unique in the table.
+    pub name: String,
+    /// Centre of the insert.
+    pub center: Point,
+    /// Metres.
+    pub radius: f64,
+    /// When lit.
+    pub color: LightColor,
+}
+
+/// The rules: what happens when.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RulesFile {
+    /// Balls a player has in a game.
+    pub balls: u32,
+    /// The multiplier never grows beyond this.
+    pub max_multiplier: u32,
+    /// In order: every rule whose event happened runs its actions.
+    pub on: Vec<RuleFile>,
+}
+
+/// One rule.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RuleFile {
+    /// When this happens ...
+    pub event: EventFile,
+    /// ... do these, in order.
+    pub run: Vec<ActionFile>,
+}
+
+/// What a rule waits for. Names are of an element or of a group (then any of its members).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum EventFile {
+    /// A bumper or slingshot kicked, a drop target fell, a post or wall was touched.
+    Hit(String),
+    /// A ball passed a rollover.
+    Pass(String),
+    /// The last light of a group was lit.
+    AllLit(String),
+    /// The last drop target of a group fell.
+    AllDown(String),
+    /// A ball was served.
+    BallStart,
+    /// The last ball was lost.
+    BallEnd,
+}
+
+/// What a rule does.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ActionFile {
+    /// Points.
+    Score(u64),
+    /// Points that are counted at the end of the ball, times the multiplier.
+    Bonus(u64),
+    /// One step up, to `max_multiplier` at the most.
+    RaiseMultiplier,
+    /// Pays the bonus times the multiplier, and sets both back.
+    CollectBonus,
+    /// A light, or a group of them, on.
+    Light(String),
+    /// A light, or a group of them, off.
+    Unlight(String),
+    /// A drop target, or a group of them, up again.
+    Raise(String),
+    /// A line on the display.
+    Message(String),
+}
+
+impl ElementFile {
+    /// The element's name.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Wall(e) => &e.name,
+            Self::Arc(e) => &e.name,
+            Self::Post(e) => &e.name,
+            Self::Gate(e) => &e.name,
+            Self::Bumper(e) => &e.name,
+            Self::Slingshot(e) => &e.name,
+            Self::DropTarget(e) => &e.name,
+            Self::Rollover(e) | Self::Drain(e) => &e.name,
+            Self::Flipper(e) => &e.name,
+            Self::Plunger(e) => &e.name,
+            Self::Light(e) => &e.name,
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The rules of a table with every name resolved to a number.
+
+use super::check::Context;
+use super::error::TableError;
+use super::format::{ActionFile, ElementFile, EventFile, RulesFile};
+
+/// The rules of a table.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RuleBook {
+    /// Balls a player has in a game.
+    pub balls: u32,
+    /// The multiplier never grows beyond this.
+    pub max_multiplier: u32,
+    /// In the file's order.
+    pub rules: Vec<Rule>,
+    /// Every line that a rule can put on the display.
+    pub messages: Vec<String>,
+}
+
+/// When a trigger is met, its commands run in order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Rule {
+    /// When.
+    pub trigger: Trigger,
+    /// What.
+    pub commands: Vec<Command>,
+}
+
+/// What a rule waits for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Trigger {
+    /// One of these elements was hit.
+    Hit(Vec<u16>),
+    /// One of these rollovers was passed.
+    Pass(Vec<u16>),
+    /// All of these lights are lit, the last of them just now. One bit a light.
+    AllLit(u64),
+    /// All of these targets are down, the last of them just now. One bit a target.
+    AllDown(u64),
+    /// A ball was served.
+    BallStart,
+    /// The last ball in play was lost.
+    BallEnd,
+}
+
+/// What a rule does.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Command {
+    /// Points.
+    Score(u64),
+    /// Points for the end of the ball.
+    Bonus(u64),
+    /// One step up.
+    RaiseMultiplier,
+    /// Pays the bonus times the multiplier.
+    CollectBonus,
+    /// Lights on, one bit a light.
+    Light(u64),
+    /// Lights off.
+    Unlight(u64),
+    /// Targets up, one bit a target.
+    Raise(u64),
+    /// A line on the display, by its place in [`RuleBook::messages`].
+    Message(u16),
+}
+
+/// Most rules of a table.
+const MOST_RULES: usize = 500;
+/// Most actions of a rule.
+const MOST_ACTIONS: usize = 32;
+
+/// What kind of element a rule's name must stand for.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Hittable,
+    Rollover,
+    Light,
+    Target,
+}
+
+impl Kind {
+    fn fits(self, element: &ElementFile) -> bool {
+        use ElementFile as E;
+        match self {
+            Self::Hittable => {
+                matches!(
+                    element,
+                    E::Wall(_)
+                        | E::Arc(_)
+                        | E::Post(_)
+                        | E::Gate(_)
+                        | E::Bumper(_)
+                        | E::Slingshot(_)
+                        | E::DropTarget(_)
+                )
+            }
+            Self::Rollover => matches!(element, E::Rollover(_)),
+            Self::Light => matches!(element, E::Light(_)),
+            Self::Target => matches!(element, E::DropTarget(_)),
+        }
+    }
+
+    fn expected(self) -> &'static str {
+        match self {
+            Self::Hittable => "something that a ball can hit",
+            Self::Rollover => "a Rollover",
+            Self::Light => "a Light",
+            Self::Target => "a DropTarget",
+        }
+    }
+}
+
+pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBook, TableError> {
+    context.in_range(None, "balls", f64::from(rules.balls), 1.0, 100.0, "3")?;
+    context.in_range(None, "max_multiplier", f64::from(rules.max_multiplier), 1.0, 100.0, "6")?;
+    let mut book =
+        RuleBook { balls: rules.balls, max_multiplier: rules.max_multiplier, rules: Vec::new(), messages: Vec::new() };
+    if rules.on.len() > MOST_RULES {
+        let problem = format!("{} rules are more than {MOST_RULES}", rules.on.len());
+        return Err(context.error(None, Some("on"), problem));
+    }
+    for rule in &rules.on {
+        if rule.run.len() > MOST_ACTIONS {
+            let problem = format!("{} actions in one rule are more than {MOST_ACTIONS}", rule.run.len());
+            return Err(context.error(None, Some("run"), problem));
+        }
+        let trigger = match &rule.event {
+            EventFile::Hit(name) => Trigger::Hit(elements(context, name, Kind::Hittable)?),
+            EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Rollover)?),
+            EventFile::AllLit(name) => Trigger::AllLit(bits(context, name, Kind::Light)?),
+            EventFile::AllDown(name) => Trigger::AllDown(bits(context, name, Kind::Target)?),
+            EventFile::BallStart => Trigger::BallStart,
+            EventFile::BallEnd => Trigger::BallEnd,
+        };
+        let commands =
+            rule.run.iter().map(|action| command(context, action, &mut book.messages)).collect::<Result<_, _>>()?;
+        book.rules.push(Rule { trigger, commands });
+    }
+    Ok(book)
+}
+
+fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String>) -> Result<Command, TableError> {
+    Ok(match action {
+        ActionFile::Score(points) => Command::Score(points_in_range(context, *points)?),
+        ActionFile::Bonus(points) => Command::Bonus(points_in_range(context, *points)?),
+        ActionFile::RaiseMultiplier => Command::RaiseMultiplier,
+        ActionFile::CollectBonus => Command::CollectBonus,
+        ActionFile::Light(name) => Command::Light(bits(context, name, Kind::Light)?),
+        ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
+        ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
+        ActionFile::Message(text) => {
+            if text.is_empty() || text.chars().count() > 40 || text.chars().any(char::is_control) {
+                return Err(context.error(
+                    None,
+                    Some("Message"),
+                    format!("{text:?} is not 1 to 40 printable characters"),
+                ));
+            }
+            messages.push(text.clone());
+            Command::Message((messages.len() - 1) as u16)
+        }
+    })
+}
+
+/// No single rule may make a score overflow within any number of years.
+fn points_in_range(context: &Context<'_>, points: u64) -> Result<u64, TableError> {
+    if points <= 1_000_000_000 {
+        Ok(points)
+    } else {
+        Err(context.error(None, Some("rules"), format!("{points} points are more than 1000000000 for one event")))
+    }
+}
+
+/// The elements that a name stands for: itself, or the members of a group.
+fn elements(context: &Context<'_>, name: &str, kind: Kind) -> Result<Vec<u16>, TableError> {
+    let names = context.file.groups.get(name).map_or_else(|| vec![name.to_owned()], Clone::clone);
+    let mut found = Vec::new();
+    for member in &names {
+        let index = context.index_of(member).ok_or_else(|| {
+            let problem = format!("a rule speaks of {name:?}, which is neither an element nor a group");
+            context.error(None, Some("rules"), problem)
+        })?;
+        if !kind.fits(&context.file.elements[usize::from(index)]) {
+            let problem =
+                format!("a rule speaks of {name:?} where {} would be right, and {member:?} is not", kind.expected());
+            return Err(context.error(None, Some("rules"), problem));
+        }
+        found.push(index);
+    }
+    Ok(found)
+}
+
+/// The same, as one bit each among the elements of that kind.
+fn bits(context: &Context<'_>, name: &str, kind: Kind) -> Result<u64, TableError> {
+    let all: Vec<u16> = (0_u16..).zip(&context.file.elements).filter(|(_, e)| kind.fits(e)).map(|(i, _)| i).collect();
+    let mut bits = 0;
+    for index in elements(context, name, kind)? {
+        // `check` allows at most 64 of each kind.
+        bits |= all.iter().position(|&i| i == index).map_or(0, |place| 1_u64 << place);
+    }
+    Ok(bits)
+}

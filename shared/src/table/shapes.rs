@@ -1,0 +1,290 @@
+//! Elements -> colliders, flippers and plungers.
+
+use glam::DVec2;
+
+use super::check::{Context, vector};
+use super::error::TableError;
+use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point};
+use crate::math::{direction, radians, tangent};
+use crate::physics::flipper::FlipperSpec;
+use crate::physics::plunger::PlungerSpec;
+use crate::physics::scene::{Collider, Material, Presence, Role, Scene};
+use crate::physics::shapes::{Arc, Segment, Shape, Side};
+
+/// Most colliders of a table; a place among them fits 16 bits.
+const MOST_COLLIDERS: usize = 8000;
+
+pub(super) fn build(context: &Context<'_>) -> Result<Scene, TableError> {
+    let file = context.file;
+    let scene = Scene {
+        tick_seconds: 1.0 / f64::from(file.tick_hz),
+        gravity: vector(file.gravity),
+        rest_speed: file.rest_speed,
+        ball_radius: file.ball.radius,
+        ball_mass: file.ball.mass,
+        size: vector(file.size),
+        colliders: Vec::new(),
+        flippers: Vec::new(),
+        plungers: Vec::new(),
+        targets: 0,
+    };
+    let mut builder = Builder { context, scene };
+    for (index, element) in (0..).zip(&file.elements) {
+        builder.add(index, element)?;
+        if builder.scene.colliders.len() > MOST_COLLIDERS {
+            let problem = format!("the elements up to this one have more than {MOST_COLLIDERS} sides and corners");
+            return Err(context.error(Some(element.name()), None, problem));
+        }
+    }
+    Ok(builder.scene)
+}
+
+struct Builder<'a> {
+    context: &'a Context<'a>,
+    scene: Scene,
+}
+
+impl Builder<'_> {
+    fn add(&mut self, index: u16, element: &ElementFile) -> Result<(), TableError> {
+        let name = element.name();
+        match element {
+            ElementFile::Wall(wall) => {
+                let material = self.material(name, &wall.material)?;
+                self.polyline(index, name, &wall.points, material)
+            }
+            ElementFile::Arc(arc) => self.arc(index, arc),
+            ElementFile::Post(post) => {
+                let material = self.material(name, &post.material)?;
+                self.disc(index, name, post.center, post.radius, material, Role::Solid)
+            }
+            ElementFile::Gate(gate) => {
+                let material = self.material(name, &gate.material)?;
+                let mut segment = self.segment(name, gate.from, gate.to)?;
+                segment.one_way = true;
+                self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
+                Ok(())
+            }
+            ElementFile::Bumper(bumper) => {
+                let material = self.material(name, &bumper.material)?;
+                let role = self.kicker(name, bumper.kick, bumper.threshold)?;
+                self.disc(index, name, bumper.center, bumper.radius, material, role)
+            }
+            ElementFile::Slingshot(sling) => {
+                let material = self.material(name, &sling.material)?;
+                let role = self.kicker(name, sling.kick, sling.threshold)?;
+                let segment = self.segment(name, sling.from, sling.to)?;
+                self.push(index, Shape::Segment(segment), material, role, Presence::Always);
+                Ok(())
+            }
+            ElementFile::DropTarget(target) => {
+                let material = self.material(name, &target.material)?;
+                self.speed(name, "threshold", target.threshold)?;
+                let place = self.scene.targets;
+                self.scene.targets += 1;
+                let role = Role::Target { index: place, threshold: target.threshold };
+                let segment = self.segment(name, target.from, target.to)?;
+                let presence = Presence::TargetUp(place);
+                self.push(index, Shape::Segment(segment), material, role, presence);
+                for end in [target.from, target.to] {
+                    self.push(index, point(vector(end)), material, role, presence);
+                }
+                Ok(())
+            }
+            ElementFile::Rollover(line) => self.sensor(index, line, Role::Sensor),
+            ElementFile::Drain(line) => self.sensor(index, line, Role::Drain),
+            ElementFile::Flipper(flipper) => self.flipper(index, flipper),
+            ElementFile::Plunger(plunger) => self.plunger(index, plunger),
+            ElementFile::Light(light) => {
+                self.context.point(name, "center", light.center)?;
+                self.length(name, "radius", light.radius)
+            }
+        }
+    }
+
+    fn push(&mut self, element: u16, shape: Shape, material: Material, role: Role, presence: Presence) {
+        let bounds = shape.bounds(self.scene.ball_radius);
+        self.scene.colliders.push(Collider { shape, bounds, material, element, role, presence });
+    }
+
+    fn material(&self, element: &str, name: &str) -> Result<Material, TableError> {
+        let materials = &self.context.file.materials;
+        let Some(found) = materials.get(name) else {
+            let known: Vec<_> = materials.keys().map(String::as_str).collect();
+            let problem = format!("there is no material {name:?}; there are: {}", known.join(", "));
+            return Err(self.context.error(Some(element), Some("material"), problem));
+        };
+        Ok(Material { restitution: found.restitution, falloff: found.falloff, friction: found.friction })
+    }
+
+    fn length(&self, element: &str, field: &str, value: f64) -> Result<(), TableError> {
+        self.context.in_range(Some(element), field, value, 1e-5, 1e3, "a length in metres such as 0.02")
+    }
+
+    fn speed(&self, element: &str, field: &str, value: f64) -> Result<(), TableError> {
+        self.context.in_range(Some(element), field, value, 0.0, 100.0, "a speed in m/s such as 0.8")
+    }
+
+    fn kicker(&self, element: &str, kick: f64, threshold: f64) -> Result<Role, TableError> {
+        self.speed(element, "kick", kick)?;
+        self.speed(element, "threshold", threshold)?;
+        Ok(Role::Kicker { speed: kick, threshold })
+    }
+
+    fn segment(&self, element: &str, from: Point, to: Point) -> Result<Segment, TableError> {
+        let (a, b) = (self.context.point(element, "from", from)?, self.context.point(element, "to", to)?);
+        self.between(element, "to", a, b)
+    }
+
+    fn between(&self, element: &str, field: &str, a: DVec2, b: DVec2) -> Result<Segment, TableError> {
+        // Shorter than this a direction has no digits left.
+        if (b - a).length() < 1e-9 {
+            let problem = format!("two ends at ({}, {}) make no line; they must differ", b.x, b.y);
+            return Err(self.context.error(Some(element), Some(field), problem));
+        }
+        Ok(Segment::new(a, b))
+    }
+
+    fn polyline(&mut self, index: u16, name: &str, points: &[Point], material: Material) -> Result<(), TableError> {
+        if points.len() < 2 || points.len() > 500 {
+            let problem = format!("{} points; 2 to 500 would be right", points.len());
+            return Err(self.context.error(Some(name), Some("points"), problem));
+        }
+        let places = points.iter().map(|&p| self.context.point(name, "points", p)).collect::<Result<Vec<_>, _>>()?;
+        for pair in places.windows(2) {
+            let segment = self.between(name, "points", pair[0], pair[1])?;
+            self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
+        }
+        // A closed line has its first corner only once.
+        let closed = places.first() == places.last();
+        for &place in &places[usize::from(closed)..] {
+            self.push(index, point(place), material, Role::Solid, Presence::Always);
+        }
+        Ok(())
+    }
+
+    fn disc(
+        &mut self,
+        index: u16,
+        name: &str,
+        center: Point,
+        radius: f64,
+        material: Material,
+        role: Role,
+    ) -> Result<(), TableError> {
+        let center = self.context.point(name, "center", center)?;
+        self.length(name, "radius", radius)?;
+        let shape = Shape::Arc(Arc { center, radius, side: Side::Outside, span: None });
+        self.push(index, shape, material, role, Presence::Always);
+        Ok(())
+    }
+
+    fn arc(&mut self, index: u16, arc: &ArcFile) -> Result<(), TableError> {
+        let name = arc.name.as_str();
+        let material = self.material(name, &arc.material)?;
+        let center = self.context.point(name, "center", arc.center)?;
+        self.length(name, "radius", arc.radius)?;
+        self.context.in_range(Some(name), "from", arc.from, -720.0, 720.0, "an angle in degrees such as -90")?;
+        let most = arc.from + 360.0;
+        self.context.in_range(Some(name), "to", arc.to, arc.from + 1e-3, most, "an angle clockwise of `from`")?;
+        let middle = direction(radians(0.5 * (arc.from + arc.to)));
+        let cosine = libm::cos(radians(0.5 * (arc.to - arc.from)));
+        let span = (arc.to < most).then_some((middle, cosine));
+        let face = |side| Shape::Arc(Arc { center, radius: arc.radius, side, span });
+        self.push(index, face(Side::Outside), material, Role::Solid, Presence::Always);
+        // A ball that is larger than the circle cannot be inside.
+        if arc.radius > self.scene.ball_radius {
+            self.push(index, face(Side::Inside), material, Role::Solid, Presence::Always);
+        }
+        if span.is_some() {
+            for angle in [arc.from, arc.to] {
+                let end = center + direction(radians(angle)) * arc.radius;
+                self.push(index, point(end), material, Role::Solid, Presence::Always);
+            }
+        }
+        Ok(())
+    }
+
+    fn sensor(&mut self, index: u16, line: &LineFile, role: Role) -> Result<(), TableError> {
+        let segment = self.segment(&line.name, line.from, line.to)?;
+        let none = Material { restitution: 0.0, falloff: 0.0, friction: 0.0 };
+        self.push(index, Shape::Segment(segment), none, role, Presence::Always);
+        Ok(())
+    }
+
+    fn flipper(&mut self, element: u16, file: &FlipperFile) -> Result<(), TableError> {
+        let name = file.name.as_str();
+        let check =
+            |field, value, low, high, example| self.context.in_range(Some(name), field, value, low, high, example);
+        self.length(name, "length", file.length)?;
+        self.length(name, "base_radius", file.base_radius)?;
+        self.length(name, "tip_radius", file.tip_radius)?;
+        check("base_radius", file.base_radius, file.tip_radius, file.tip_radius + 0.9 * file.length, "0.0111 m")?;
+        check("rest", file.rest, -360.0, 360.0, "120.5 degrees")?;
+        check("raised", file.raised, file.rest - 180.0, file.rest - 0.1, "an angle below `rest`, such as 70")?;
+        check("inertia", file.inertia, 1e-12, 1e6, "1.07e-4 kg m^2")?;
+        check("torque", file.torque, 1e-9, 1e6, "0.58 N m")?;
+        check("ramp", file.ramp, 0.0, 1.0, "0.01 s")?;
+        check("hold", file.hold, 0.0, 1.0, "0.75")?;
+        check("hold_within", file.hold_within, 0.0, 180.0, "6 degrees")?;
+        check("return_share", file.return_share, 1e-6, 1.0, "0.041")?;
+        check("stop_restitution", file.stop_restitution, 0.0, 0.9, "0.2")?;
+        let spec = FlipperSpec {
+            element,
+            right: file.hand == Hand::Right,
+            pivot: self.context.point(name, "pivot", file.pivot)?,
+            length: file.length,
+            base_radius: file.base_radius,
+            tip_radius: file.tip_radius,
+            rest: radians(file.rest),
+            stroke: radians(file.rest - file.raised),
+            inertia: file.inertia,
+            torque: file.torque,
+            ramp: file.ramp,
+            hold: file.hold,
+            hold_within: radians(file.hold_within),
+            return_share: file.return_share,
+            stop_restitution: file.stop_restitution,
+            material: self.material(name, &file.material)?,
+        };
+        let place = self.scene.flippers.len() as u16;
+        for (swing, presence) in [(0.0, Presence::FlipperAtRest(place)), (spec.stroke, Presence::FlipperRaised(place))]
+        {
+            for shape in spec.shapes(swing) {
+                self.push(element, shape, spec.material, Role::Solid, presence);
+            }
+        }
+        self.scene.flippers.push(spec);
+        Ok(())
+    }
+
+    fn plunger(&mut self, element: u16, file: &PlungerFile) -> Result<(), TableError> {
+        let name = file.name.as_str();
+        self.length(name, "stroke", file.stroke)?;
+        self.context.in_range(Some(name), "mass", file.mass, 1e-6, 1e6, "0.06 kg")?;
+        self.context.in_range(Some(name), "force", file.force, 1e-6, 1e6, "30 N")?;
+        self.context.in_range(Some(name), "hand_speed", file.hand_speed, 1e-6, 100.0, "0.15 m/s")?;
+        let material = self.material(name, &file.material)?;
+        let segment = self.segment(name, file.from, file.to)?;
+        let place = self.scene.plungers.len() as u16;
+        self.push(element, Shape::Segment(segment), material, Role::Solid, Presence::PlungerHome(place));
+        self.scene.plungers.push(PlungerSpec {
+            element,
+            from: segment.a,
+            along: segment.along,
+            width: segment.length,
+            // The face looks to the left when going from the first to the second end.
+            normal: -tangent(segment.along),
+            stroke: file.stroke,
+            mass: file.mass,
+            stiffness: file.force / file.stroke,
+            hand_speed: file.hand_speed,
+            material,
+        });
+        Ok(())
+    }
+}
+
+/// A point is an arc of radius 0.
+fn point(center: DVec2) -> Shape {
+    Shape::Arc(Arc { center, radius: 0.0, side: Side::Outside, span: None })
+}
