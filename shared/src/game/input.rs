@@ -28,6 +28,13 @@ pub enum Action {
     Release,
 }
 
+impl Action {
+    /// Whether it is a button or the plunger, which a seated player works directly.
+    pub fn is_control(self) -> bool {
+        matches!(self, Self::Flipper { .. } | Self::Pull(_) | Self::Release)
+    }
+}
+
 /// An action of a seat at a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Input {

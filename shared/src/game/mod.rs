@@ -11,7 +11,8 @@ use std::sync::Arc;
 pub use bot::Bot;
 pub use events::{GameEvent, GameEventKind};
 pub use input::{Action, Input, SEATS};
-pub use state::{GameState, Phase, Seat};
+pub(crate) use state::sample_play;
+pub use state::{GameState, Phase, Play, Seat};
 
 use crate::math::digest_of;
 use crate::physics::ball::{Instant, Support};

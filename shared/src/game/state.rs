@@ -68,6 +68,12 @@ impl Play {
     }
 }
 
+/// A state that has something in every field: one of the protocol's samples.
+pub(crate) fn sample_play(phase: Phase) -> Play {
+    let score = Score { points: 300, bonus: 70_000, multiplier: 2 };
+    Play { phase, seats: [Seat { taken: true, playing: true, score }; SEATS], lights: 5 }
+}
+
 /// The state of a game: what is saved, sent and digested.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GameState {

@@ -1,0 +1,189 @@
+//! Where everything stands in the window, and how metres on the table become pixels. Pure arithmetic.
+
+use macroquad::math::{Rect, Vec2, vec2};
+
+/// Size of a picture in physical pixels; never 0 by 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct PixelSize {
+    pub(super) width: u16,
+    pub(super) height: u16,
+}
+
+/// Wood around the playfield, metres.
+const FRAME: f32 = 0.020;
+
+/// Graphics cards of the oldest kind that macroquad runs on hold textures up to this size. A larger window is painted
+/// at this size and enlarged.
+const LARGEST: f32 = 4096.0;
+
+/// A panel is at most this many times as wide as the table: on a very wide window, text stays beside the table.
+const WIDEST_PANEL: f32 = 1.3;
+
+impl PixelSize {
+    /// The size of the picture for a window of so many physical pixels.
+    pub(super) fn of_window(width: f32, height: f32) -> Self {
+        let shrink = (LARGEST / width.max(height).max(1.0)).min(1.0);
+        let side = |length: f32| (length * shrink).round().clamp(1.0, LARGEST) as u16;
+        Self { width: side(width), height: side(height) }
+    }
+
+    /// As a vector.
+    pub(super) fn to_vec(self) -> Vec2 {
+        vec2(f32::from(self.width), f32::from(self.height))
+    }
+}
+
+/// The largest place of a picture's shape in the middle of a window.
+pub(super) fn letterbox(picture: PixelSize, window: Vec2) -> Rect {
+    let size = picture.to_vec();
+    let fitted = size * (window / size).min_element();
+    let corner = (window - fitted) / 2.0;
+    Rect::new(corner.x, corner.y, fitted.x, fitted.y)
+}
+
+/// Places of everything for one size of the window.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Layout {
+    /// Of the whole picture.
+    pub(super) size: PixelSize,
+    /// The table with its wooden frame.
+    pub(super) cabinet: Rect,
+    /// Pixels a metre.
+    pub(super) scale: f32,
+    /// Panel with title, scores and the message.
+    pub(super) main_panel: Rect,
+    /// Panel with ball, bonus, onlookers and keys.
+    pub(super) side_panel: Rect,
+    /// Size of the playfield, metres.
+    table: Vec2,
+}
+
+impl Layout {
+    /// Divides a picture for a table of a size in metres.
+    pub(super) fn new(size: PixelSize, table: Vec2) -> Self {
+        let window = size.to_vec();
+        let outer = table + 2.0 * FRAME;
+        let aspect = window.x / window.y;
+        let (area, main_panel, side_panel);
+        if aspect >= 1.15 {
+            // Wide: the table in the middle, a panel at either side.
+            let width = (window.y * outer.x / outer.y).min(window.x * 0.6).round();
+            let panel = ((window.x - width) / 2.0).floor();
+            let used = panel.min((width * WIDEST_PANEL).floor());
+            area = Rect::new(panel, 0.0, width, window.y);
+            main_panel = Rect::new(panel - used, 0.0, used, window.y);
+            side_panel = Rect::new(panel + width, 0.0, used, window.y);
+        } else if aspect >= 0.8 {
+            // Nearly square: the table at the left, both panels stacked at its right.
+            let width = (window.y * outer.x / outer.y).min(window.x * 0.6).round();
+            let upper = (window.y * 0.5).round();
+            area = Rect::new(0.0, 0.0, width, window.y);
+            main_panel = Rect::new(width, 0.0, window.x - width, upper);
+            side_panel = Rect::new(width, upper, window.x - width, window.y - upper);
+        } else {
+            // Tall: the panels side by side above the table, in whatever height the table leaves, within reason.
+            let spare = window.y - window.x * outer.y / outer.x;
+            let upper = spare.clamp(window.y * 0.30, window.y * 0.4).round();
+            let half = (window.x * 0.56).round();
+            area = Rect::new(0.0, upper, window.x, window.y - upper);
+            main_panel = Rect::new(0.0, 0.0, half, upper);
+            side_panel = Rect::new(half, 0.0, window.x - half, upper);
+        }
+        let scale = (vec2(area.w, area.h) / outer).min_element();
+        let fitted = outer * scale;
+        let corner = (area.center() - fitted / 2.0).round().max(Vec2::ZERO);
+        let cabinet = Rect::new(corner.x, corner.y, fitted.x, fitted.y);
+        Self { size, cabinet, scale, main_panel, side_panel, table }
+    }
+
+    /// The pixel of a point on the table.
+    pub(super) fn point(&self, metres: Vec2) -> Vec2 {
+        let left = self.cabinet.x + FRAME * self.scale;
+        let bottom = self.cabinet.y + (self.table.y + FRAME) * self.scale;
+        vec2(left + metres.x * self.scale, bottom - metres.y * self.scale)
+    }
+
+    /// The pixel of a point as written in a table file.
+    pub(super) fn written(&self, (x, y): (f64, f64)) -> Vec2 {
+        self.point(vec2(x as f32, y as f32))
+    }
+
+    /// Pixels of a length in metres.
+    pub(super) fn length(&self, metres: f64) -> f32 {
+        metres as f32 * self.scale
+    }
+
+    /// The playfield inside the frame.
+    pub(super) fn playfield(&self) -> Rect {
+        let corner = self.point(vec2(0.0, self.table.y));
+        Rect::new(corner.x, corner.y, self.table.x * self.scale, self.table.y * self.scale)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TABLE: Vec2 = Vec2::new(0.514, 1.067);
+
+    fn inside(inner: Rect, outer: Vec2) -> bool {
+        let slack = 0.51;
+        inner.x >= -slack && inner.y >= -slack && inner.right() <= outer.x + slack && inner.bottom() <= outer.y + slack
+    }
+
+    fn sizes() -> impl Iterator<Item = PixelSize> {
+        let sides = [200, 333, 600, 720, 900, 1080, 1280, 1920, 3000, 4000];
+        sides.into_iter().flat_map(move |width| sides.into_iter().map(move |height| PixelSize { width, height }))
+    }
+
+    #[test]
+    fn everything_is_inside_the_window_and_apart() {
+        for size in sides_and_extremes() {
+            let layout = Layout::new(size, TABLE);
+            let window = size.to_vec();
+            for rect in [layout.cabinet, layout.playfield(), layout.main_panel, layout.side_panel] {
+                assert!(inside(rect, window), "{size:?}: {rect:?}");
+            }
+            for panel in [layout.main_panel, layout.side_panel] {
+                let shared = panel.intersect(layout.cabinet);
+                assert!(shared.is_none_or(|both| both.w < 1.0 || both.h < 1.0), "{size:?}: {panel:?} {shared:?}");
+            }
+            assert!(layout.main_panel.intersect(layout.side_panel).is_none_or(|both| both.w < 1.0 || both.h < 1.0));
+        }
+    }
+
+    fn sides_and_extremes() -> impl Iterator<Item = PixelSize> {
+        let extremes = [(4000, 200), (200, 3000), (1, 1), (1, 3000), (4000, 1)];
+        sizes().chain(extremes.into_iter().map(|(width, height)| PixelSize { width, height }))
+    }
+
+    #[test]
+    fn the_aspect_of_the_table_is_kept() {
+        for size in sizes() {
+            let playfield = Layout::new(size, TABLE).playfield();
+            let stretch = playfield.w / playfield.h / (TABLE.x / TABLE.y);
+            assert!((stretch - 1.0).abs() < 1e-3, "{size:?}: {stretch}");
+        }
+    }
+
+    #[test]
+    fn y_runs_up_the_table_and_down_the_window() {
+        let layout = Layout::new(PixelSize { width: 1280, height: 720 }, TABLE);
+        let (low, high) = (layout.point(vec2(0.1, 0.0)), layout.point(vec2(0.1, 1.0)));
+        assert!(high.y < low.y && (low.y - high.y - layout.length(1.0)).abs() < 1e-3);
+        assert!((layout.point(Vec2::ZERO) - vec2(layout.playfield().x, layout.playfield().bottom())).length() < 1e-3);
+    }
+
+    #[test]
+    fn a_huge_window_is_painted_smaller_in_the_same_shape() {
+        assert_eq!(PixelSize::of_window(8192.0, 4096.0), PixelSize { width: 4096, height: 2048 });
+        assert_eq!(PixelSize::of_window(0.0, 0.0), PixelSize { width: 1, height: 1 });
+        assert_eq!(PixelSize::of_window(1280.0, 720.0), PixelSize { width: 1280, height: 720 });
+    }
+
+    #[test]
+    fn a_letterbox_touches_two_sides_and_keeps_the_shape() {
+        let place = letterbox(PixelSize { width: 200, height: 100 }, vec2(300.0, 300.0));
+        assert_eq!((place.x, place.y, place.w, place.h), (0.0, 75.0, 300.0, 150.0));
+    }
+}

@@ -1,0 +1,205 @@
+//! Draws a [`View`]: the table, the panels beside it, and nothing else of the client.
+//!
+//! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
+//! `furniture`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
+//! `atlas`) and placed by `scene` and `hud`. `layout` and `panels` say where; `back_buffer` shows whole frames only.
+
+mod atlas;
+mod back_buffer;
+mod cabinet;
+mod canvas;
+mod dot_matrix;
+mod furniture;
+mod hud;
+mod inserts;
+mod layout;
+mod palette;
+mod panels;
+mod playfield;
+mod scene;
+mod shape;
+mod sprites;
+
+use macroquad::color::WHITE;
+use macroquad::material::{Material, MaterialParams, gl_use_default_material, gl_use_material, load_material};
+use macroquad::math::vec2;
+use macroquad::miniquad::{BlendFactor, BlendState, BlendValue, Equation, PipelineParams, ShaderSource};
+use macroquad::texture::{FilterMode, Texture2D, draw_texture};
+use macroquad::window::{screen_dpi_scale, screen_height, screen_width};
+use shared::table::TableFile;
+
+use crate::view::View;
+use atlas::{Batch, Sprite};
+use back_buffer::BackBuffer;
+use dot_matrix::Fonts;
+use hud::Writer;
+use layout::{Layout, PixelSize};
+use panels::Panels;
+use scene::Stage;
+use sprites::Sprites;
+
+/// Draws frames. The only part of the client that draws to the screen.
+pub(crate) struct Renderer {
+    table: TableFile,
+    blending: Blending,
+    back_buffer: BackBuffer,
+    /// Everything painted for one size of the window; made by the first frame.
+    art: Option<Art>,
+}
+
+/// What was painted for one size of the window.
+struct Art {
+    layout: Layout,
+    panels: Panels,
+    /// All that stands still, the whole picture.
+    still: Texture2D,
+    sprites: Sprites<Sprite>,
+    fonts: Fonts,
+    batch: Batch,
+}
+
+/// Why a frame was given up before it was whole.
+#[derive(Debug, thiserror::Error)]
+enum Abandoned {
+    /// The view is of another table.
+    #[error("the view has {view} elements, the table {table}")]
+    OtherTable { view: usize, table: usize },
+}
+
+impl Renderer {
+    /// A renderer for a table. Needs macroquad's window; paints nothing yet.
+    pub(crate) fn new(table: &TableFile) -> Self {
+        Self { table: table.clone(), blending: Blending::new(), back_buffer: BackBuffer::new(), art: None }
+    }
+
+    /// Draws one frame and shows it. If the view does not belong to the table, the last whole frame stays.
+    pub(crate) fn draw(&mut self, view: &View) {
+        let Self { table, blending, back_buffer, art } = self;
+
+        // 1. The art for the window's size.
+        let dpi_scale = screen_dpi_scale();
+        let size = PixelSize::of_window(screen_width() * dpi_scale, screen_height() * dpi_scale);
+        let current = art.take().filter(|art| art.layout.size == size);
+        let art = art.insert(current.unwrap_or_else(|| Art::paint(size, table)));
+
+        // 2. The frame, whole, into the back buffer.
+        let painted = back_buffer.frame(size, || paint_frame(table, blending, art, view));
+
+        // 3. The newest whole frame on the screen, in one blit.
+        blending.overwrite();
+        match painted {
+            Ok(finished) => finished.present(),
+            Err(reason) => {
+                tracing::debug!(%reason, "frame abandoned");
+                if let Some(finished) = back_buffer.last_whole() {
+                    finished.present();
+                }
+            }
+        }
+        gl_use_default_material();
+    }
+}
+
+/// Paints one frame with the camera that is set.
+fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &View) -> Result<(), Abandoned> {
+    let counts = (view.elements.len(), table.elements.len());
+    if counts.0 != counts.1 {
+        return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
+    }
+    let Art { layout, panels, still, sprites, fonts, batch } = art;
+
+    // 1. What stands still covers every pixel of the last frame.
+    blending.overwrite();
+    draw_texture(still, 0.0, 0.0, WHITE);
+
+    // 2. What moves on the table.
+    blending.layer();
+    let mut stage = Stage { layout, panels, table, sprites, fonts, batch };
+    stage.draw(view);
+
+    // 3. Text.
+    let mut writer = Writer { panels, fonts, batch };
+    writer.panels(&view.hud, view.clock);
+    writer.banner(&view.hud, sprites.plate, sprites::banner_area(layout, panels));
+    batch.flush();
+    Ok(())
+}
+
+impl Art {
+    /// Paints everything for a size of the window.
+    fn paint(size: PixelSize, table: &TableFile) -> Self {
+        let layout = Layout::new(size, vec2(table.size.0 as f32, table.size.1 as f32));
+        let panels = Panels::new(&layout);
+        let picture = canvas::paint_in_bands(size.width, size.height, |canvas| {
+            cabinet::paint(canvas, &layout, &panels);
+            playfield::paint(canvas, &layout, table);
+            furniture::paint(canvas, &layout, table);
+        });
+        let still = Texture2D::from_image(&picture);
+        still.set_filter(FilterMode::Nearest);
+        let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
+        Self { layout, panels, still, sprites, fonts, batch }
+    }
+}
+
+/// How colours are laid over each other.
+struct Blending {
+    overwrite: Option<Material>,
+    layer: Option<Material>,
+}
+
+impl Blending {
+    /// Should a driver refuse our materials, everything is drawn with macroquad's own: lights are then too dark, but
+    /// the game is playable.
+    fn new() -> Self {
+        let premultiplied =
+            BlendState::new(Equation::Add, BlendFactor::One, BlendFactor::OneMinusValue(BlendValue::SourceAlpha));
+        Self { overwrite: material(None), layer: material(Some(premultiplied)) }
+    }
+
+    /// From here on, pixels replace what is below them.
+    fn overwrite(&self) {
+        use_material(self.overwrite.as_ref());
+    }
+
+    /// From here on, pixels have premultiplied alpha: they cover, or add light where their alpha is 0.
+    fn layer(&self) {
+        use_material(self.layer.as_ref());
+    }
+}
+
+fn use_material(material: Option<&Material>) {
+    match material {
+        Some(material) => gl_use_material(material),
+        None => gl_use_default_material(),
+    }
+}
+
+fn material(color_blend: Option<BlendState>) -> Option<Material> {
+    const VERTEX: &str = "#version 100
+        attribute vec3 position;
+        attribute vec2 texcoord;
+        attribute vec4 color0;
+        varying highp vec2 uv;
+        varying lowp vec4 color;
+        uniform mat4 Model;
+        uniform mat4 Projection;
+        void main() {
+            gl_Position = Projection * Model * vec4(position, 1);
+            color = color0 / 255.0;
+            uv = texcoord;
+        }";
+    const FRAGMENT: &str = "#version 100
+        varying lowp vec4 color;
+        varying highp vec2 uv;
+        uniform sampler2D Texture;
+        void main() {
+            gl_FragColor = color * texture2D(Texture, uv);
+        }";
+    let params = MaterialParams {
+        pipeline_params: PipelineParams { color_blend, ..PipelineParams::default() },
+        ..MaterialParams::default()
+    };
+    let loaded = load_material(ShaderSource::Glsl { vertex: VERTEX, fragment: FRAGMENT }, params);
+    loaded.inspect_err(|error| tracing::warn!(%error, "material refused, drawing without it")).ok()
+}

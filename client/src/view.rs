@@ -1,0 +1,97 @@
+//! Plain data for one frame: everything that drawing needs to know, and nothing of sockets, clocks or physics.
+//!
+//! Positions are metres on the table (y up), as `f32`: the picture needs no more.
+
+use macroquad::math::Vec2;
+
+/// One frame's worth of the game.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct View {
+    /// Balls in play.
+    pub(crate) balls: Vec<BallView>,
+    /// For each flipper, in the table's order: angle from +y towards its own side, radians.
+    pub(crate) flippers: Vec<f32>,
+    /// For each plunger, in the table's order: metres that the head is pulled back (0: at rest).
+    pub(crate) plungers: Vec<f32>,
+    /// For each element of the table, by its place in the file: lit light, fallen target.
+    pub(crate) elements: Vec<ElementView>,
+    /// Points that float up where they were made.
+    pub(crate) popups: Vec<Popup>,
+    /// What the display and the side panel say.
+    pub(crate) hud: Hud,
+    /// Seconds since the client started: for blinking and attract-mode light shows, never for physics.
+    pub(crate) clock: f32,
+}
+
+/// A ball.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct BallView {
+    /// Centre.
+    pub(crate) position: Vec2,
+    /// Metres a second.
+    pub(crate) velocity: Vec2,
+}
+
+/// What an element looks like just now.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct ElementView {
+    /// A light that is lit.
+    pub(crate) lit: bool,
+    /// A drop target that has fallen.
+    pub(crate) down: bool,
+    /// 1 at the moment of a hit (or pass), falling to 0 within about a third of a second.
+    pub(crate) flash: f32,
+}
+
+/// Points that float up.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Popup {
+    /// Where they were made.
+    pub(crate) position: Vec2,
+    /// For example `+500`.
+    pub(crate) text: String,
+    /// 0 when new, 1 when gone.
+    pub(crate) age: f32,
+}
+
+/// What the display and the side panel say.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Hud {
+    /// Name of the table.
+    pub(crate) table: String,
+    /// One line for each seat that is taken, in order.
+    pub(crate) seats: Vec<SeatView>,
+    /// Ball that is played, from 1; 0 outside a game.
+    pub(crate) ball: u32,
+    /// Balls in a game.
+    pub(crate) balls: u32,
+    /// Points waiting for the end of the ball.
+    pub(crate) bonus: u64,
+    /// Times which the bonus is paid.
+    pub(crate) multiplier: u32,
+    /// The one line on the display that matters most now, such as `BANK DOWN` or `GAME OVER`.
+    pub(crate) message: String,
+    /// What can be pressed now, such as (`ENTER`, `PLAY`).
+    pub(crate) keys: Vec<(String, String)>,
+    /// How many watch.
+    pub(crate) spectators: u32,
+    /// Who waits for a seat, first in line first.
+    pub(crate) queue: Vec<String>,
+    /// A big line over the playfield (the title of the attract screen, `GAME OVER`, a lost connection), or empty.
+    pub(crate) banner: String,
+    /// A smaller line under the banner, or empty.
+    pub(crate) sub_banner: String,
+}
+
+/// One player's line.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct SeatView {
+    /// The player's name.
+    pub(crate) name: String,
+    /// Points.
+    pub(crate) score: u64,
+    /// Whose turn it is.
+    pub(crate) active: bool,
+    /// The person at this window.
+    pub(crate) you: bool,
+}

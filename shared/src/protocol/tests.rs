@@ -1,0 +1,120 @@
+//! The protocol against itself and against hostile bytes.
+
+use super::version::{sample_frames, sample_snapshot};
+use super::*;
+use crate::game::{Action, Bot, Game, Input};
+use crate::math::Rng;
+use crate::table::Table;
+
+fn message_of(snapshot: Snapshot) -> ServerMessage {
+    ServerMessage::Snapshot(snapshot)
+}
+
+#[test]
+fn every_message_survives_the_wire() {
+    let message = message_of(sample_snapshot());
+    assert_eq!(decode::<ServerMessage>(&encode(&message)), Ok(message));
+    let act = ClientMessage::Act { tick: u64::MAX, action: Action::Pull(1) };
+    assert_eq!(decode::<ClientMessage>(&encode(&act)), Ok(act));
+}
+
+#[test]
+fn a_frame_must_be_one_message_to_the_last_byte() {
+    let mut bytes = encode(&ClientMessage::Play);
+    bytes.push(0);
+    assert_eq!(decode::<ClientMessage>(&bytes), Err(FrameError::Trailing { length: 2, left: 1 }));
+    assert!(matches!(decode::<ClientMessage>(&[]), Err(FrameError::Malformed { .. })));
+    assert!(matches!(decode::<ClientMessage>(&[99]), Err(FrameError::Malformed { .. })));
+}
+
+#[test]
+fn a_list_longer_than_its_bound_is_refused_before_it_is_read() {
+    // A snapshot whose list of balls claims 2^32 items.
+    let mut bytes = encode(&message_of(sample_snapshot()));
+    let balls = bytes.iter().position(|&b| b == 7).expect("the count of balls: variant, tick, served, count");
+    bytes.splice(balls..=balls, [252, 255, 255, 255, 255]);
+    let error = decode::<ServerMessage>(&bytes).expect_err("must be refused");
+    assert!(error.to_string().contains("at most 16"), "{error}");
+}
+
+#[test]
+fn other_protocols_are_refused_in_plain_words() {
+    let hello = Hello { name: "x".to_owned(), role: Role::Watch };
+    let good = encode_greeting(&hello);
+    assert_eq!(decode_greeting::<Hello>(&good), Ok(hello));
+
+    let mut other_version = good.clone();
+    other_version[8] = 77;
+    let error = decode_greeting::<Hello>(&other_version).expect_err("another version");
+    assert!(error.to_string().contains("protocol 77"), "{error}");
+
+    let mut other_build = good.clone();
+    other_build[12] ^= 1;
+    let error = decode_greeting::<Hello>(&other_build).expect_err("another build");
+    assert!(error.to_string().contains("builds differ"), "{error}");
+
+    for foreign in [&b"GET / HTTP/1.1\r\n\r\n     "[..], b"", b"STARBALL"] {
+        let error = decode_greeting::<Hello>(foreign).expect_err("not Starball");
+        assert!(error.to_string().contains("does not speak"), "{error}");
+    }
+}
+
+#[test]
+fn mutated_frames_never_panic() {
+    let mut rng = Rng::new(1);
+    let frames = sample_frames();
+    for round in 0..20_000 {
+        let mut bytes = frames[round % frames.len()].clone();
+        for _ in 0..=(rng.bits() % 4) {
+            let at = (rng.bits() % bytes.len().max(1) as u64) as usize;
+            match rng.bits() % 3 {
+                0 => bytes[at] = rng.bits() as u8,
+                1 => bytes.truncate(at.max(1)),
+                _ => bytes.insert(at, rng.bits() as u8),
+            }
+        }
+        let _ = decode::<ServerMessage>(&bytes);
+        let _ = decode::<ClientMessage>(&bytes);
+        let _ = decode_greeting::<Hello>(&bytes);
+    }
+}
+
+#[test]
+fn names_with_control_characters_are_refused() {
+    for good in ["Ann", "Jörg 2", "名前"] {
+        assert_eq!(check_name(good), Ok(()), "{good}");
+    }
+    for bad in ["", " x", "a\u{1b}[31m", "a\nb", "a\u{202e}b", "0123456789012345678901234"] {
+        assert!(check_name(bad).is_err(), "{bad:?}");
+    }
+}
+
+#[test]
+fn a_snapshot_of_a_game_in_play_restores_bit_for_bit() {
+    let table = std::sync::Arc::new(Table::shipped("classic").expect("shipped").expect("valid"));
+    let mut game = Game::new(std::sync::Arc::clone(&table));
+    let mut bot = Bot::new(0, 5);
+    let mut copy = Game::new(table);
+    let mut inputs = Vec::new();
+    let mut largest = 0;
+    for tick in 0..20_000 {
+        inputs.clear();
+        let mut act = |action| inputs.push(Input { tick, seat: 0, action });
+        if tick == 0 {
+            act(Action::Sit);
+            act(Action::Start);
+        }
+        bot.play(&game, act);
+        game.step(&inputs);
+        if tick % 1777 == 0 {
+            let bytes = encode(&Snapshot { state: game.state(), events: vec![] });
+            largest = largest.max(bytes.len());
+            let snapshot: Snapshot = decode(&bytes).expect("own snapshot");
+            copy.restore(snapshot.state).expect("own state");
+        } else {
+            copy.step(&inputs);
+        }
+        assert_eq!(game.digest(), copy.digest(), "tick {tick}");
+    }
+    assert!(largest <= 512, "a full snapshot has {largest} bytes");
+}

@@ -1,0 +1,190 @@
+//! The preamble: which protocol a side speaks, told in a form that never changes.
+
+use std::sync::OnceLock;
+
+use thiserror::Error;
+
+use super::frame::encode;
+use super::message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome};
+use crate::game::{Action, GameEvent, GameEventKind, GameState, Phase};
+use crate::math::Digest;
+use crate::physics::ball::{Ball, Flight, Instant, Support};
+use crate::physics::flipper::{FlipperRest, FlipperState};
+use crate::physics::plunger::PlungerState;
+use crate::physics::{TargetState, WorldState};
+
+/// Version of the protocol. Raise it when a message changes its meaning; a change of its bytes is noticed anyway.
+pub const VERSION: u32 = 1;
+
+/// Bytes of a preamble: 8 of name, 4 of version, 8 of the samples' digest, all little-endian.
+pub const PREAMBLE_LENGTH: usize = 20;
+
+const NAME: [u8; 8] = *b"STARBALL";
+
+/// Which protocol a side speaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Preamble {
+    /// Of the protocol.
+    pub version: u32,
+    /// Of the encoded samples of every message: two builds whose messages differ in a single byte differ in it.
+    pub samples: u64,
+}
+
+/// Why the other side cannot be talked to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum PreambleError {
+    /// It does not speak Starball at all.
+    #[error("the other side does not speak the Starball protocol")]
+    Foreign,
+    /// It speaks another version.
+    #[error("the other side speaks Starball protocol {theirs}, this side {VERSION}: use the same release on both")]
+    Version {
+        /// Of the other side.
+        theirs: u32,
+    },
+    /// It says that it speaks the same version, but its messages have other bytes.
+    #[error(
+        "both sides speak Starball protocol {VERSION}, but their builds differ (messages {theirs:016x}, here {ours:016x}): use the same release on both"
+    )]
+    Build {
+        /// Of the other side.
+        theirs: u64,
+        /// Of this side.
+        ours: u64,
+    },
+}
+
+impl Preamble {
+    /// What this build speaks.
+    pub fn ours() -> Self {
+        static SAMPLES: OnceLock<u64> = OnceLock::new();
+        Self { version: VERSION, samples: *SAMPLES.get_or_init(digest_of_samples) }
+    }
+
+    /// As sent.
+    pub fn to_bytes(self) -> [u8; PREAMBLE_LENGTH] {
+        let mut bytes = [0; PREAMBLE_LENGTH];
+        bytes[..8].copy_from_slice(&NAME);
+        bytes[8..12].copy_from_slice(&self.version.to_le_bytes());
+        bytes[12..].copy_from_slice(&self.samples.to_le_bytes());
+        bytes
+    }
+
+    /// From the start of a frame.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, PreambleError> {
+        let (name, rest) = bytes.split_first_chunk::<8>().ok_or(PreambleError::Foreign)?;
+        let (version, rest) = rest.split_first_chunk::<4>().ok_or(PreambleError::Foreign)?;
+        let (samples, _) = rest.split_first_chunk::<8>().ok_or(PreambleError::Foreign)?;
+        if *name != NAME {
+            return Err(PreambleError::Foreign);
+        }
+        Ok(Self { version: u32::from_le_bytes(*version), samples: u64::from_le_bytes(*samples) })
+    }
+
+    /// Whether the side that sent it can be talked to.
+    ///
+    /// # Errors
+    /// Why not.
+    pub fn check(self) -> Result<(), PreambleError> {
+        let ours = Self::ours();
+        if self.version != ours.version {
+            return Err(PreambleError::Version { theirs: self.version });
+        }
+        if self.samples != ours.samples {
+            return Err(PreambleError::Build { theirs: self.samples, ours: ours.samples });
+        }
+        Ok(())
+    }
+}
+
+fn digest_of_samples() -> u64 {
+    let mut digest = Digest::default();
+    for bytes in sample_frames() {
+        digest.update(&(bytes.len() as u64).to_le_bytes());
+        digest.update(&bytes);
+    }
+    digest.finish()
+}
+
+/// One encoded sample of every message, with every variant of everything that messages hold.
+pub(super) fn sample_frames() -> Vec<Vec<u8>> {
+    let hellos = [Role::Play, Role::Watch].map(|role| encode(&Hello { name: "sample".to_owned(), role }));
+    let actions = [
+        Action::Sit,
+        Action::Stand,
+        Action::Start,
+        Action::Flipper { right: true, pressed: false },
+        Action::Pull(300),
+        Action::Release,
+    ];
+    let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
+    let others = [ClientMessage::Play, ClientMessage::Leave, ClientMessage::Ping { nonce: 1 }];
+    let welcome = Welcome { client: 1, physics: 2, table_digest: 3, table: "()".to_owned() };
+    let roster =
+        Roster { seats: [Some("a".to_owned()), None], line: vec!["b".to_owned()], spectators: 3 };
+    let from_server = [
+        ServerMessage::Welcome(welcome),
+        ServerMessage::Refused { reason: "full".to_owned() },
+        ServerMessage::Snapshot(sample_snapshot()),
+        ServerMessage::Roster(roster),
+        ServerMessage::You { seat: Some(1), line: Some(2) },
+        ServerMessage::Pong { nonce: 1, tick: 2 },
+        ServerMessage::Bye { reason: "end".to_owned() },
+    ];
+    let mut frames = Vec::new();
+    frames.extend(hellos);
+    frames.extend(acts);
+    frames.extend(others.iter().map(encode));
+    frames.extend(from_server.iter().map(encode));
+    frames
+}
+
+pub(super) fn sample_snapshot() -> Snapshot {
+    let flight = Flight {
+        start: Instant { tick: 9, offset: 0.25 },
+        position: glam::DVec2::new(0.1, 0.2),
+        velocity: glam::DVec2::new(-1.0, 2.0),
+        acceleration: glam::DVec2::new(0.0, -0.8),
+    };
+    let supports = [
+        Support::None,
+        Support::Line(1),
+        Support::Arc(2),
+        Support::Stalled,
+        Support::Wedge(3, 4),
+        Support::Flipper(0),
+        Support::Plunger(0),
+    ];
+    let balls = supports.map(|support| Ball { id: 7, flight, spin: 1.5, support, past: Some((0.5, 3)) });
+    let rests = [FlipperRest::AtRest, FlipperRest::Raised, FlipperRest::Moving];
+    let world = WorldState {
+        tick: 10,
+        served: 8,
+        balls: balls.to_vec(),
+        flippers: rests.map(|rest| FlipperState { rest, ..FlipperState::default() }).to_vec(),
+        plungers: vec![PlungerState { hand: Some(0.5), ..PlungerState::default() }],
+        targets: vec![TargetState::Up, TargetState::Down, TargetState::Rising],
+    };
+    let kinds = [
+        GameEventKind::Touched { element: 1, speed: 0.5 },
+        GameEventKind::Kicked { element: 1, speed: 0.5 },
+        GameEventKind::Felled { element: 1, speed: 0.5 },
+        GameEventKind::Passed { element: 1 },
+        GameEventKind::Points { seat: 0, points: 500, place: Some((0.1, 0.2)) },
+        GameEventKind::Message { place: 1 },
+        GameEventKind::Flipped { right: true },
+        GameEventKind::SatDown { seat: 0 },
+        GameEventKind::StoodUp { seat: 0 },
+        GameEventKind::Started,
+        GameEventKind::Served { seat: 0, ball: 1 },
+        GameEventKind::Lost { seat: 0 },
+        GameEventKind::Rescued,
+        GameEventKind::Over,
+    ];
+    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4 };
+    let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
+    Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
+}
