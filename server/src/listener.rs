@@ -1,0 +1,43 @@
+//! Accepts connections, up to the host's limit.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use bytes::Bytes;
+use tokio::net::TcpListener;
+use tokio::sync::{broadcast, mpsc};
+use tokio::task::JoinSet;
+
+use crate::config::Config;
+use crate::connection;
+use crate::room::Command;
+
+/// How long to wait when the system has no socket left.
+const NO_SOCKET_PAUSE: Duration = Duration::from_millis(100);
+
+/// Accepts until it is dropped. Each connection becomes a task in `connections`.
+pub(crate) async fn accept(
+    listener: &TcpListener,
+    config: &Arc<Config>,
+    frames: &broadcast::Sender<Bytes>,
+    commands: &mpsc::Sender<Command>,
+    connections: &mut JoinSet<()>,
+) {
+    loop {
+        let (stream, address) = match listener.accept().await {
+            Ok(accepted) => accepted,
+            Err(error) => {
+                tracing::warn!("cannot accept a connection: {error}");
+                tokio::time::sleep(NO_SOCKET_PAUSE).await;
+                continue;
+            }
+        };
+        while connections.try_join_next().is_some() {}
+        let is_full = connections.len() >= config.most_connections;
+        let task = connection::serve(stream, address, Arc::clone(config), frames.clone(), commands.clone(), is_full);
+        // A refusal takes a connection's time too, but not without bound.
+        if connections.len() < config.most_connections.saturating_mul(2) {
+            connections.spawn(task);
+        }
+    }
+}

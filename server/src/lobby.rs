@@ -1,0 +1,274 @@
+//! The lobby: who is connected, who sits where, who is next in line. It decides; the room turns its decisions into
+//! inputs of the game.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use bytes::Bytes;
+use shared::game::{Action, SEATS};
+use shared::protocol::{Roster, ServerMessage};
+use tokio::sync::mpsc;
+
+use crate::connection::frame_of;
+use crate::session::SessionState;
+
+/// Names of the line that a roster tells.
+const LINE_TOLD: usize = 32;
+
+/// A connected client.
+#[derive(Debug)]
+struct Client {
+    name: String,
+    state: SessionState,
+    direct: mpsc::Sender<Bytes>,
+}
+
+/// Who has a seat.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sitter {
+    /// The bot.
+    Bot,
+    /// A client.
+    Client(u32),
+}
+
+/// What the lobby needs to know of the game.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct GameView {
+    /// Somebody can still join: no game, or one that stands at its start.
+    pub(crate) is_at_start: bool,
+    /// A game is being played.
+    pub(crate) is_playing: bool,
+}
+
+/// Who is connected, who sits where, who is next.
+#[derive(Debug, Default)]
+pub(crate) struct Lobby {
+    clients: BTreeMap<u32, Client>,
+    seats: [Option<Sitter>; SEATS],
+    line: VecDeque<u32>,
+    changed: bool,
+}
+
+/// Something the game has to be told: a seat and what it does.
+pub(crate) type Deed = (u8, Action);
+
+impl Lobby {
+    /// A client came in; it watches until it asks for more.
+    pub(crate) fn add(&mut self, id: u32, name: String, direct: mpsc::Sender<Bytes>) {
+        self.clients.insert(id, Client { name, state: SessionState::Watching, direct });
+        self.changed = true;
+    }
+
+    /// What a client is; `None` if it is gone.
+    pub(crate) fn state(&self, id: u32) -> Option<SessionState> {
+        self.clients.get(&id).map(|client| client.state)
+    }
+
+    /// A client asks for a seat, or for the next game.
+    pub(crate) fn play(&mut self, id: u32, game: GameView) -> Vec<Deed> {
+        match self.state(id) {
+            Some(SessionState::Seated(seat)) if !game.is_playing => vec![(seat, Action::Start)],
+            Some(SessionState::Watching) => {
+                self.line.push_back(id);
+                self.set_state(id, SessionState::InLine);
+                self.fill_seats(game)
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// A client gives its seat or its place in the line back.
+    pub(crate) fn leave(&mut self, id: u32, game: GameView) -> Vec<Deed> {
+        let Some(state) = self.state(id) else { return Vec::new() };
+        self.line.retain(|&waiting| waiting != id);
+        self.set_state(id, SessionState::Watching);
+        match state {
+            SessionState::Seated(seat) => {
+                self.seats[usize::from(seat)] = None;
+                let mut deeds = vec![(seat, Action::Stand)];
+                deeds.extend(self.fill_seats(game));
+                deeds
+            }
+            SessionState::Watching | SessionState::InLine => Vec::new(),
+        }
+    }
+
+    /// A client is gone.
+    pub(crate) fn remove(&mut self, id: u32, game: GameView) -> Vec<Deed> {
+        let deeds = self.leave(id, game);
+        self.changed |= self.clients.remove(&id).is_some();
+        deeds
+    }
+
+    /// Seats who is next in line, as far as the game lets anybody in.
+    pub(crate) fn fill_seats(&mut self, game: GameView) -> Vec<Deed> {
+        let mut deeds = Vec::new();
+        while let Some(&next) = self.line.front() {
+            // Against nobody but the bot, or nobody at all, a person begins at once.
+            let alone = !self.has_people();
+            if !alone && !game.is_at_start {
+                break;
+            }
+            if alone {
+                deeds.extend(self.send_bot_away());
+            }
+            let Some(seat) = self.seats.iter().position(Option::is_none) else { break };
+            self.line.pop_front();
+            self.seats[seat] = Some(Sitter::Client(next));
+            self.set_state(next, SessionState::Seated(seat as u8));
+            deeds.push((seat as u8, Action::Sit));
+            if alone {
+                deeds.push((seat as u8, Action::Start));
+            }
+        }
+        deeds
+    }
+
+    /// The bot takes the first seat, if nobody else wants one.
+    pub(crate) fn seat_bot(&mut self) -> Vec<Deed> {
+        if self.seats.iter().any(Option::is_some) || !self.line.is_empty() {
+            return Vec::new();
+        }
+        self.seats[0] = Some(Sitter::Bot);
+        self.changed = true;
+        vec![(0, Action::Sit), (0, Action::Start)]
+    }
+
+    fn send_bot_away(&mut self) -> Vec<Deed> {
+        let Some(seat) = self.seats.iter().position(|sitter| *sitter == Some(Sitter::Bot)) else {
+            return Vec::new();
+        };
+        self.seats[seat] = None;
+        self.changed = true;
+        vec![(seat as u8, Action::Stand)]
+    }
+
+    /// Whether a person has a seat.
+    pub(crate) fn has_people(&self) -> bool {
+        self.seats.iter().any(|sitter| matches!(sitter, Some(Sitter::Client(_))))
+    }
+
+    /// Whether the bot has a seat.
+    pub(crate) fn has_bot(&self) -> bool {
+        self.seats.contains(&Some(Sitter::Bot))
+    }
+
+    /// The name of who sits there.
+    pub(crate) fn name_of(&self, seat: u8) -> &str {
+        match self.seats.get(usize::from(seat)) {
+            Some(Some(Sitter::Bot)) => "BOT",
+            Some(Some(Sitter::Client(id))) => self.clients.get(id).map_or("?", |client| &client.name),
+            _ => "nobody",
+        }
+    }
+
+    /// A roster for everybody and a `You` for each, if something has changed since the last call.
+    pub(crate) fn news(&mut self) -> Option<Roster> {
+        if !std::mem::take(&mut self.changed) {
+            return None;
+        }
+        for (id, client) in &self.clients {
+            let seat = match client.state {
+                SessionState::Seated(seat) => Some(seat),
+                _ => None,
+            };
+            let line = self.line.iter().position(|waiting| waiting == id);
+            let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
+            // A client that takes nothing is ended by its writer.
+            let _ = client.direct.try_send(frame_of(&ServerMessage::You { seat, line }));
+        }
+        let seated = self.seats.iter().filter(|sitter| matches!(sitter, Some(Sitter::Client(_)))).count();
+        let mut seats = <[Option<String>; SEATS]>::default();
+        for (seat, name) in (0..).zip(&mut seats) {
+            *name = self.seats[usize::from(seat)].map(|_| self.name_of(seat).to_owned());
+        }
+        let names = self.line.iter().filter_map(|id| self.clients.get(id));
+        Some(Roster {
+            seats,
+            line: names.map(|client| client.name.clone()).take(LINE_TOLD).collect(),
+            spectators: u32::try_from(self.clients.len() - seated).unwrap_or(u32::MAX),
+        })
+    }
+
+    /// Sends one client a message.
+    pub(crate) fn tell(&self, id: u32, message: &ServerMessage) {
+        if let Some(client) = self.clients.get(&id) {
+            // A client that takes nothing is ended by its writer.
+            let _ = client.direct.try_send(frame_of(message));
+        }
+    }
+
+    /// Sends every client a message, ahead of the frames that all share.
+    pub(crate) fn tell_all(&self, message: &ServerMessage) {
+        for &id in self.clients.keys() {
+            self.tell(id, message);
+        }
+    }
+
+    fn set_state(&mut self, id: u32, state: SessionState) {
+        if let Some(client) = self.clients.get_mut(&id) {
+            client.state = state;
+            self.changed = true;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const START: GameView = GameView { is_at_start: true, is_playing: false };
+    const EARLY: GameView = GameView { is_at_start: true, is_playing: true };
+    const LATE: GameView = GameView { is_at_start: false, is_playing: true };
+
+    fn lobby_with(names: &[&str]) -> Lobby {
+        let mut lobby = Lobby::default();
+        for (id, name) in (0..).zip(names) {
+            lobby.add(id, (*name).to_owned(), mpsc::channel(1).0);
+        }
+        lobby
+    }
+
+    #[test]
+    fn the_first_person_sends_the_bot_away_and_starts() {
+        let mut lobby = lobby_with(&["Ann"]);
+        assert_eq!(lobby.seat_bot(), [(0, Action::Sit), (0, Action::Start)]);
+        assert_eq!(lobby.play(0, LATE), [(0, Action::Stand), (0, Action::Sit), (0, Action::Start)]);
+        assert_eq!(lobby.name_of(0), "Ann");
+        assert!(lobby.seat_bot().is_empty());
+    }
+
+    #[test]
+    fn a_second_person_joins_at_the_start_and_waits_later() {
+        let mut lobby = lobby_with(&["Ann", "Bob", "Cid"]);
+        lobby.play(0, START);
+        assert_eq!(lobby.play(1, EARLY), [(1, Action::Sit)]);
+        assert!(lobby.play(2, EARLY).is_empty(), "both seats are taken");
+        assert_eq!(lobby.state(2), Some(SessionState::InLine));
+        // Bob leaves in mid-game: Cid has to wait for its end.
+        assert_eq!(lobby.leave(1, LATE), [(1, Action::Stand)]);
+        assert_eq!(lobby.fill_seats(START), [(1, Action::Sit)]);
+        assert_eq!(lobby.name_of(1), "Cid");
+    }
+
+    #[test]
+    fn the_next_in_line_starts_when_everybody_has_left() {
+        let mut lobby = lobby_with(&["Ann", "Bob"]);
+        lobby.play(0, START);
+        lobby.play(1, LATE);
+        assert_eq!(lobby.remove(0, LATE), [(0, Action::Stand), (0, Action::Sit), (0, Action::Start)]);
+        assert_eq!(lobby.name_of(0), "Bob");
+    }
+
+    #[test]
+    fn whoever_gives_up_a_place_in_line_is_not_seated() {
+        let mut lobby = lobby_with(&["Ann", "Bob"]);
+        lobby.play(0, START);
+        lobby.play(1, LATE);
+        assert!(lobby.leave(1, LATE).is_empty());
+        assert!(lobby.fill_seats(START).is_empty());
+        let roster = lobby.news().expect("changed");
+        assert_eq!((roster.spectators, roster.line.len()), (1, 0));
+        assert!(lobby.news().is_none());
+    }
+}

@@ -1,0 +1,158 @@
+//! The headless server's command line: `starball-server` serves, `starball-server simulate` plays without network.
+
+use std::io::IsTerminal;
+use std::net::SocketAddr;
+use std::path::Path;
+use std::process::ExitCode;
+use std::sync::Arc;
+
+use clap::{Args, Parser, Subcommand};
+use shared::table::{SHIPPED, Table};
+use starball_server::{Config, simulate};
+use tokio::net::TcpListener;
+use tracing_subscriber::EnvFilter;
+
+/// A pinball server: steps the table and streams it to players and spectators.
+#[derive(Debug, Parser)]
+#[command(version, args_conflicts_with_subcommands = true)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    #[command(flatten)]
+    serve: Serve,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Plays a table without network, as fast as possible, and prints the outcome as one line of JSON.
+    Simulate(Simulate),
+}
+
+#[derive(Debug, Args)]
+struct Serve {
+    /// Address and port to listen on; port 0 takes any that is free.
+    #[arg(long, default_value = "127.0.0.1:7777", value_name = "ADDRESS:PORT")]
+    listen: SocketAddr,
+    /// A shipped table's name or a table file.
+    #[arg(long, default_value = "classic", value_name = "NAME|FILE")]
+    table: String,
+    /// Leaves the table alone while nobody plays.
+    #[arg(long)]
+    no_bot: bool,
+    /// What the bot's habits follow from.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Most clients at once.
+    #[arg(long, default_value_t = 256)]
+    most_connections: usize,
+}
+
+#[derive(Debug, Args)]
+struct Simulate {
+    /// A shipped table's name or a table file.
+    table: String,
+    /// World time to play, seconds.
+    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
+    seconds: f64,
+    /// Lets the bot play; else nobody does.
+    #[arg(long)]
+    bot: bool,
+    /// What the bot's habits follow from.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=1e7).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0 to 10000000 would be right".to_owned()),
+    }
+}
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match arguments.command {
+        Some(Command::Simulate(arguments)) => simulate(&arguments),
+        None => serve(&arguments.serve),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("starball-server: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn simulate(arguments: &Simulate) -> Result<(), String> {
+    let table = load_table(&arguments.table)?;
+    let simulation = simulate::Simulation { seconds: arguments.seconds, bot: arguments.bot, seed: arguments.seed };
+    println!("{}", simulate::run(&table, simulation));
+    Ok(())
+}
+
+fn serve(arguments: &Serve) -> Result<(), String> {
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .with_target(false)
+        .init();
+    let table = load_table(&arguments.table)?;
+    let mut config = Config::new(table);
+    config.attract = !arguments.no_bot;
+    config.seed = arguments.seed;
+    config.most_connections = arguments.most_connections;
+    let runtime = tokio::runtime::Runtime::new().map_err(|error| format!("cannot start the runtime: {error}"))?;
+    runtime.block_on(async {
+        let listener = TcpListener::bind(arguments.listen)
+            .await
+            .map_err(|error| format!("cannot listen on {}: {error}", arguments.listen))?;
+        let address = listener.local_addr().map_err(|error| format!("cannot tell the address: {error}"))?;
+        let shutdown = shutdown_signal().map_err(|error| format!("cannot listen for signals: {error}"))?;
+        println!("listening on {address}");
+        let account = starball_server::run(listener, config, shutdown).await.map_err(|error| error.to_string())?;
+        println!("{account}");
+        Ok(())
+    })
+}
+
+/// Ready at Ctrl-C or SIGTERM.
+#[cfg(unix)]
+fn shutdown_signal() -> std::io::Result<impl Future<Output = ()>> {
+    use tokio::signal::unix::{SignalKind, signal};
+    let (mut interrupt, mut terminate) = (signal(SignalKind::interrupt())?, signal(SignalKind::terminate())?);
+    Ok(async move {
+        tokio::select! {
+            _ = interrupt.recv() => {}
+            _ = terminate.recv() => {}
+        }
+    })
+}
+
+/// Ready at Ctrl-C.
+#[cfg(not(unix))]
+fn shutdown_signal() -> std::io::Result<impl Future<Output = ()>> {
+    Ok(async {
+        // Without a handler the process simply ends at Ctrl-C.
+        if tokio::signal::ctrl_c().await.is_err() {
+            std::future::pending::<()>().await;
+        }
+    })
+}
+
+/// A shipped table by name, or one from a file.
+fn load_table(name: &str) -> Result<Arc<Table>, String> {
+    let table = match Table::shipped(name) {
+        Some(shipped) => shipped,
+        None => {
+            let source = std::fs::read_to_string(Path::new(name)).map_err(|error| {
+                let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
+                format!("{name:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
+            })?;
+            Table::parse(name, &source)
+        }
+    };
+    table.map(Arc::new).map_err(|error| error.to_string())
+}

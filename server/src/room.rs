@@ -1,0 +1,336 @@
+//! The room: one game, everybody who plays or watches it, and the clock that drives it.
+//!
+//! [`Room::tick`] is the main flow. Nothing else changes the game, and everything that does is an input with a tick.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use bytes::Bytes;
+use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, SEATS};
+use shared::physics::flipper::FlipperRest;
+use shared::protocol::{ClientMessage, Role, SNAPSHOT_HZ, ServerMessage, Snapshot};
+use tokio::sync::{broadcast, mpsc, oneshot};
+use tokio::time::{Instant, MissedTickBehavior};
+
+use crate::account::Account;
+use crate::config::Config;
+use crate::connection::frame_of;
+use crate::lobby::{Deed, GameView, Lobby};
+use crate::pacing::Pacer;
+use crate::session::{SessionState, is_legal};
+
+/// How often the room wakes to step what is due: a fourth of a snapshot's interval.
+const WAKE_EVERY: Duration = Duration::from_millis(4);
+/// Seconds by which a player may stamp an input ahead.
+const MOST_LEAD: f64 = 0.25;
+/// Controls of one seat that may wait for their tick; more are dropped.
+const MOST_PENDING: usize = 128;
+/// Seconds without a game after which the bot begins one.
+const BOT_PATIENCE: f64 = 3.0;
+/// Events for show that may gather between two snapshots; more are dropped.
+const MOST_EVENTS: usize = 256;
+
+/// What connections ask of the room.
+#[derive(Debug)]
+pub(crate) enum Command {
+    /// A client said hello.
+    Join {
+        /// Checked.
+        name: String,
+        /// What it comes for.
+        role: Role,
+        /// Frames for it alone.
+        direct: mpsc::Sender<Bytes>,
+        /// Who it is now.
+        reply: oneshot::Sender<Joined>,
+    },
+    /// A client said something.
+    Message {
+        /// Which.
+        client: u32,
+        /// What.
+        message: ClientMessage,
+    },
+    /// A client said something that nobody understands.
+    Expel {
+        /// Which.
+        client: u32,
+        /// What it is told.
+        reason: String,
+    },
+    /// A client is gone.
+    Left {
+        /// Which.
+        client: u32,
+    },
+}
+
+/// The answer to a join.
+#[derive(Debug)]
+pub(crate) struct Joined {
+    /// The client's number.
+    pub(crate) client: u32,
+}
+
+/// A game and everybody around it.
+pub(crate) struct Room {
+    config: Arc<Config>,
+    game: Game,
+    lobby: Lobby,
+    bot: Bot,
+    frames: broadcast::Sender<Bytes>,
+    /// Inputs for ticks to come.
+    pending: Vec<Input>,
+    /// What happened since the last snapshot.
+    events: Vec<GameEvent>,
+    /// Ticks without a game.
+    idle_ticks: u64,
+    next_client: u32,
+    /// Flippers that lay at their upper stop after the last tick, one bit each.
+    raised: u64,
+    account: Account,
+}
+
+impl Room {
+    pub(crate) fn new(config: Arc<Config>, frames: broadcast::Sender<Bytes>) -> Self {
+        Self {
+            game: Game::new(Arc::clone(&config.table)),
+            lobby: Lobby::default(),
+            bot: Bot::new(0, config.seed),
+            frames,
+            pending: Vec::new(),
+            events: Vec::new(),
+            idle_ticks: 0,
+            next_client: 1,
+            raised: 0,
+            account: Account::default(),
+            config,
+        }
+    }
+
+    /// Runs until `stopped` is dropped or ready; says goodbye to everybody.
+    pub(crate) async fn run(
+        mut self,
+        mut commands: mpsc::Receiver<Command>,
+        mut stopped: oneshot::Receiver<()>,
+    ) -> Account {
+        let begin = Instant::now();
+        let mut pacer = Pacer::new(1.0 / self.game.table().scene.tick_seconds, Duration::ZERO);
+        let mut wake = tokio::time::interval(WAKE_EVERY);
+        wake.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        loop {
+            tokio::select! {
+                biased;
+                _ = &mut stopped => break,
+                _ = wake.tick() => {
+                    let due = pacer.due(begin.elapsed());
+                    self.account.ticks_skipped += due.skipped;
+                    if due.skipped > 0 {
+                        tracing::warn!("the machine stalled: {} ticks given up", due.skipped);
+                    }
+                    for _ in 0..due.ticks {
+                        self.tick();
+                    }
+                }
+                Some(command) = commands.recv() => self.handle(command),
+            }
+        }
+        self.lobby.tell_all(&ServerMessage::Bye { reason: "the server ends".to_owned() });
+        self.account
+    }
+
+    /// One tick of the room.
+    fn tick(&mut self) {
+        let tick = self.game.tick();
+        // 1. Who sits: the next in line, or the bot when nobody wants to.
+        self.fill_seats();
+        // 2. The bot's hands.
+        if self.lobby.has_bot() {
+            let pending = &mut self.pending;
+            self.bot.play(&self.game, |action| pending.push(Input { tick, seat: 0, action }));
+        }
+        // 3. The game plays the tick with the inputs that are due.
+        self.game.step(&self.pending);
+        self.pending.retain(|input| input.tick > tick);
+        self.account.ticks += 1;
+        // 4. What happened: for the account, the log and the spectators.
+        self.note_events();
+        // 5. Who is there, if that changed; and the game as it is now, sixty times a second.
+        if let Some(roster) = self.lobby.news() {
+            self.send(&ServerMessage::Roster(roster));
+        }
+        if self.is_snapshot_due() {
+            self.send_snapshot();
+        }
+    }
+
+    fn handle(&mut self, command: Command) {
+        match command {
+            Command::Join { name, role, direct, reply } => {
+                let client = self.next_client;
+                self.next_client = self.next_client.wrapping_add(1);
+                self.account.clients += 1;
+                if reply.send(Joined { client }).is_err() {
+                    return;
+                }
+                self.lobby.add(client, name, direct);
+                if role == Role::Play {
+                    let deeds = self.lobby.play(client, self.view());
+                    self.perform(&deeds);
+                }
+            }
+            Command::Message { client, message } => self.hear(client, message),
+            Command::Expel { client, reason } => self.expel(client, reason),
+            Command::Left { client } => {
+                let deeds = self.lobby.remove(client, self.view());
+                self.perform(&deeds);
+            }
+        }
+    }
+
+    /// A client said something.
+    fn hear(&mut self, client: u32, message: ClientMessage) {
+        let Some(state) = self.lobby.state(client) else { return };
+        if !is_legal(state, &message) {
+            self.expel(client, format!("{message:?} is not for a client that is {state:?}"));
+            return;
+        }
+        match message {
+            ClientMessage::Act { tick, action } => {
+                if let SessionState::Seated(seat) = state {
+                    self.act(seat, tick, action);
+                }
+            }
+            ClientMessage::Play => {
+                let deeds = self.lobby.play(client, self.view());
+                self.perform(&deeds);
+            }
+            ClientMessage::Leave => {
+                let deeds = self.lobby.leave(client, self.view());
+                self.perform(&deeds);
+            }
+            ClientMessage::Ping { nonce } => {
+                self.lobby.tell(client, &ServerMessage::Pong { nonce, tick: self.game.tick() });
+            }
+        }
+    }
+
+    fn expel(&mut self, client: u32, reason: String) {
+        tracing::warn!(client, "expelled: {reason}");
+        self.account.illegal += 1;
+        self.lobby.tell(client, &ServerMessage::Bye { reason });
+        // With its sender of direct frames gone, its connection ends once the goodbye is written.
+        let deeds = self.lobby.remove(client, self.view());
+        self.perform(&deeds);
+    }
+
+    /// A player's control: at the tick it is stamped with if that is near enough ahead, else as soon as possible.
+    fn act(&mut self, seat: u8, tick: u64, action: Action) {
+        let now = self.game.tick();
+        let latest = now + (MOST_LEAD / self.game.table().scene.tick_seconds) as u64;
+        let of_seat = self.pending.iter().filter(|input| input.seat == seat).count();
+        if of_seat < MOST_PENDING {
+            self.account.controls += 1;
+            self.pending.push(Input { tick: tick.clamp(now, latest), seat, action });
+        }
+    }
+
+    /// What the lobby decided, as inputs of the coming tick.
+    fn perform(&mut self, deeds: &[Deed]) {
+        let tick = self.game.tick();
+        for &(seat, action) in deeds {
+            // Whoever leaves takes waiting controls along.
+            if action == Action::Stand {
+                self.pending.retain(|input| input.seat != seat || !input.action.is_control());
+            }
+            self.pending.push(Input { tick, seat, action });
+        }
+    }
+
+    fn view(&self) -> GameView {
+        let is_playing = matches!(self.game.phase(), Phase::Play { .. });
+        GameView { is_at_start: self.game.is_at_start(), is_playing }
+    }
+
+    /// 1. Seats the next in line where the game lets them in; after a while without a game, the bot plays.
+    fn fill_seats(&mut self) {
+        let deeds = self.lobby.fill_seats(self.view());
+        self.perform(&deeds);
+        if matches!(self.game.phase(), Phase::Play { .. }) {
+            self.idle_ticks = 0;
+            return;
+        }
+        self.idle_ticks += 1;
+        let patience = (BOT_PATIENCE / self.game.table().scene.tick_seconds) as u64;
+        if !self.config.attract || self.lobby.has_people() || self.idle_ticks < patience {
+            return;
+        }
+        let deeds = if self.lobby.has_bot() { vec![(0, Action::Start)] } else { self.lobby.seat_bot() };
+        if !deeds.is_empty() {
+            self.bot = Bot::new(0, self.config.seed.wrapping_add(self.account.games));
+            self.idle_ticks = 0;
+        }
+        self.perform(&deeds);
+    }
+
+    /// 4. Counts, logs and keeps what happened in the tick.
+    fn note_events(&mut self) {
+        for flipper in 0..self.game.world().state().flippers.len() {
+            let state = self.game.world().state().flippers[flipper];
+            // A stroke ends in the tick in which the flipper comes to lie at its upper stop.
+            let ended = state.rest == FlipperRest::Raised && state.speed == 0.0;
+            let right = self.game.table().scene.flippers[flipper].right;
+            let bit = 1_u64 << (flipper % 64);
+            if ended && self.raised & bit == 0 {
+                self.account.strokes[usize::from(right)] += 1;
+            }
+            self.raised = if ended { self.raised | bit } else { self.raised & !bit };
+        }
+        for place in 0..self.game.events().len() {
+            let event = self.game.events()[place];
+            self.note_event(event.kind);
+            if self.events.len() < MOST_EVENTS {
+                self.events.push(event);
+            }
+        }
+    }
+
+    fn note_event(&mut self, kind: GameEventKind) {
+        let points = |seat: u8| self.game.seats()[usize::from(seat)].score.points;
+        match kind {
+            GameEventKind::Started => self.account.games += 1,
+            GameEventKind::Served { .. } => self.account.balls += 1,
+            GameEventKind::Lost { seat } => {
+                tracing::info!("{} lost a ball at {} points", self.lobby.name_of(seat), points(seat));
+            }
+            GameEventKind::Over => {
+                for seat in (0..SEATS as u8).filter(|&seat| self.game.seats()[usize::from(seat)].playing) {
+                    tracing::info!("game over: {} has {} points", self.lobby.name_of(seat), points(seat));
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn is_snapshot_due(&self) -> bool {
+        let per_second = 1.0 / self.game.table().scene.tick_seconds;
+        let number = |tick: u64| (tick as f64 * f64::from(SNAPSHOT_HZ) / per_second) as u64;
+        let tick = self.game.tick();
+        number(tick) != number(tick - 1)
+    }
+
+    fn send_snapshot(&mut self) {
+        let snapshot = Snapshot { state: self.game.state(), events: std::mem::take(&mut self.events) };
+        let frame = frame_of(&ServerMessage::Snapshot(snapshot));
+        self.account.snapshots += 1;
+        self.account.snapshot_bytes += frame.len() as u64;
+        self.account.largest_snapshot = self.account.largest_snapshot.max(frame.len());
+        // Nobody may be listening; the game goes on.
+        let _ = self.frames.send(frame);
+    }
+
+    fn send(&self, message: &ServerMessage) {
+        // Nobody may be listening.
+        let _ = self.frames.send(frame_of(message));
+    }
+}

@@ -1,0 +1,17 @@
+//! The real server over loopback: one module a story.
+
+/// A server on a free port and clients that speak to it.
+mod harness;
+
+/// Who is let in, and in which words others are not.
+mod handshake;
+/// Nonsense, floods and silence: they cost their sender the connection and nobody else anything.
+mod hostile;
+/// One player: from the first key to game over.
+mod play;
+/// Seats, turns and the line.
+mod seats;
+/// The end: a clean stop tells everybody.
+mod stop;
+/// Watching, joining late, lagging behind.
+mod watch;

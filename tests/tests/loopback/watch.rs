@@ -1,0 +1,93 @@
+//! Watching, joining late, lagging behind.
+
+use std::time::Duration;
+
+use shared::game::{GameEventKind, Phase};
+use starball_server::Config;
+
+use crate::harness::{Client, Server, classic, quiet};
+
+#[tokio::test]
+async fn spectators_see_the_same_game_bit_for_bit() {
+    let server = Server::start(Config::new(classic())).await;
+    let mut first = Client::watch(&server, "first").await;
+    first.until("the bot plays", |c| matches!(c.game.phase(), Phase::Play { serve_in: 0, .. })).await;
+    // The second one joins in mid-game and must see what the first one sees.
+    let mut second = Client::watch(&server, "second").await;
+    second.snapshot().await;
+    let mut compared = 0;
+    while compared < 30 {
+        if first.game.tick() < second.game.tick() {
+            first.snapshot().await;
+        } else {
+            second.snapshot().await;
+        }
+        if first.game.tick() == second.game.tick() {
+            assert_eq!(first.game.digest(), second.game.digest());
+            compared += 1;
+        }
+    }
+    assert_eq!(first.roster.seats[0].as_deref(), Some("BOT"));
+    server.stop().await;
+}
+
+#[tokio::test]
+async fn a_spectator_that_steps_its_own_copy_stays_right_between_snapshots() {
+    let server = Server::start(quiet()).await;
+    let mut ann = Client::play(&server, "Ann").await;
+    ann.until("the ball is served", |c| matches!(c.game.phase(), Phase::Play { serve_in: 0, .. })).await;
+    // Nobody presses anything, so the game is a function of the snapshot alone.
+    let start = ann.snapshot().await;
+    let mut copy = ann.game.clone();
+    copy.restore(start.state).expect("a valid state");
+    for _ in 0..20 {
+        ann.snapshot().await;
+        while copy.tick() < ann.game.tick() {
+            copy.step(&[]);
+        }
+        assert_eq!(copy.digest(), ann.game.digest());
+    }
+    server.stop().await;
+}
+
+#[tokio::test]
+async fn a_slow_spectator_costs_the_others_nothing() {
+    let mut config = Config::new(classic());
+    config.write_time = Duration::from_secs(60);
+    let server = Server::start(config).await;
+    // These never read.
+    let mut sleepers = Vec::new();
+    for n in 0..20 {
+        sleepers.push(Client::watch(&server, &format!("sleeper {n}")).await);
+    }
+    let mut awake = Client::watch(&server, "awake").await;
+    let first = awake.snapshot().await.state.world.tick;
+    for _ in 0..180 {
+        awake.snapshot().await;
+    }
+    // No snapshot was lost: three seconds of them are three seconds of ticks.
+    let ticks = awake.game.tick() - first;
+    assert!((2_990..=3_010).contains(&ticks), "{ticks} ticks in 180 snapshots");
+    // A sleeper that wakes up is soon where the others are.
+    let mut sleeper = sleepers.remove(0);
+    let now = awake.snapshot().await.state.world.tick;
+    sleeper.until("it has caught up", |c| c.game.tick() >= now).await;
+    server.stop().await;
+}
+
+#[tokio::test]
+async fn events_come_with_their_ticks() {
+    let server = Server::start(Config::new(classic())).await;
+    let mut ann = Client::watch(&server, "Ann").await;
+    let mut last = 0;
+    let mut served = false;
+    while !served {
+        let snapshot = ann.snapshot().await;
+        for event in &snapshot.events {
+            assert!(event.tick >= last && event.tick <= snapshot.state.world.tick);
+            last = event.tick;
+            served |= matches!(event.kind, GameEventKind::Served { seat: 0, ball: 1 });
+        }
+    }
+    server.stop().await;
+}
