@@ -1,7 +1,6 @@
 //! The headless server's command line: `starball-server` serves, `starball-server simulate` plays without network.
 
 use std::io::IsTerminal;
-use std::net::SocketAddr;
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -30,9 +29,9 @@ enum Command {
 
 #[derive(Debug, Args)]
 struct Serve {
-    /// Address and port to listen on; port 0 takes any that is free.
+    /// Address and port to listen on: 0.0.0.0 lets other machines in; port 0 takes any that is free.
     #[arg(long, default_value = "127.0.0.1:7777", value_name = "ADDRESS:PORT")]
-    listen: SocketAddr,
+    listen: String,
     /// A shipped table's name or a table file.
     #[arg(long, default_value = "classic", value_name = "NAME|FILE")]
     table: String,
@@ -52,7 +51,7 @@ struct Simulate {
     /// A shipped table's name or a table file.
     table: String,
     /// World time to play, seconds.
-    #[arg(long, default_value_t = 60.0, value_parser = seconds)]
+    #[arg(long, default_value_t = 60.0, value_parser = seconds, allow_negative_numbers = true)]
     seconds: f64,
     /// Lets the bot play; else nobody does.
     #[arg(long)]
@@ -106,9 +105,9 @@ fn serve(arguments: &Serve) -> Result<(), String> {
     config.most_connections = arguments.most_connections;
     let runtime = tokio::runtime::Runtime::new().map_err(|error| format!("cannot start the runtime: {error}"))?;
     runtime.block_on(async {
-        let listener = TcpListener::bind(arguments.listen)
+        let listener = TcpListener::bind(&arguments.listen)
             .await
-            .map_err(|error| format!("cannot listen on {}: {error}", arguments.listen))?;
+            .map_err(|error| format!("cannot listen on {:?} (ADDRESS:PORT): {error}", arguments.listen))?;
         let address = listener.local_addr().map_err(|error| format!("cannot tell the address: {error}"))?;
         let shutdown = shutdown_signal().map_err(|error| format!("cannot listen for signals: {error}"))?;
         println!("listening on {address}");

@@ -37,18 +37,26 @@ impl World {
 
     fn follow_arc(&mut self, ball: usize, index: u16, offset: f64) {
         let (position, velocity) = self.ball_at(ball, offset);
-        let Shape::Arc(arc) = &self.scene.colliders[usize::from(index)].shape else { return };
+        let collider = self.scene.colliders[usize::from(index)];
+        let Shape::Arc(arc) = &collider.shape else { return };
         let reach = arc.reach(self.scene.ball_radius);
         let radial = position - arc.center;
         if !arc.spans(radial) {
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
         }
-        // Back onto the surface, at the speed along it.
+        // Back onto the surface, at the speed that it has there by its energy: the piece of parabola alone would gain
+        // the square of the angle that it turned by.
         let outward = radial.normalize();
         let along = tangent(outward);
-        let speed = velocity.dot(along);
-        self.start_flight(ball, offset, arc.center + outward * reach, along * speed, Some(index), None);
+        let place = arc.center + outward * reach;
+        let piece = &self.state.balls[ball].flight;
+        let share = if collider.material.friction > 0.0 { ROLLING_SHARE } else { 1.0 };
+        let fallen = self.scene.gravity.dot(place - piece.position);
+        let square = piece.velocity.length_squared() + 2.0 * share * fallen;
+        let estimate = velocity.dot(along);
+        let speed = if square > 0.0 { square.sqrt().copysign(estimate) } else { estimate };
+        self.start_flight(ball, offset, place, along * speed, Some(index), None);
     }
 
     /// A ball on a moving surface takes over its normal velocity and acceleration, as long as that presses it.
