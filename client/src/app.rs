@@ -1,0 +1,252 @@
+//! The window's program: [`App::frame`] is the main flow, once a frame.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use macroquad::texture::get_screen_data;
+use macroquad::window::set_fullscreen;
+use shared::protocol::{Hello, Role};
+use shared::table::Table;
+
+use crate::arguments::{Goal, Options};
+use crate::assemble;
+use crate::controls::Controls;
+use crate::embedded::Embedded;
+use crate::input::{Keyboard, Wish};
+use crate::limiter::Limiter;
+use crate::net::{Connection, Incoming};
+use crate::render::Renderer;
+use crate::report::Report;
+use crate::screens;
+use crate::session::Session;
+use crate::view::View;
+
+/// Whether there is a next frame.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Step {
+    /// There is.
+    Continue,
+    /// The program ends.
+    Quit,
+}
+
+/// How the client stands to its server.
+#[derive(Debug)]
+enum State {
+    /// No answer yet from that address.
+    Connecting(Connection, String),
+    /// A game is to be seen.
+    Live(Connection, Box<Session>),
+    /// The connection has ended, or never stood.
+    Lost { was_live: bool, reason: String },
+}
+
+/// The window's program.
+pub(crate) struct App {
+    options: Options,
+    /// All times are seconds since then.
+    epoch: Instant,
+    state: State,
+    embedded: Option<Embedded>,
+    keyboard: Keyboard,
+    controls: Controls,
+    renderer: Renderer,
+    /// The table that the renderer draws.
+    table: Arc<Table>,
+    /// The last frame: it stays on the screen when the connection is lost.
+    view: View,
+    limiter: Limiter,
+    is_full_screen: bool,
+    shows_statistics: bool,
+    report: Report,
+}
+
+impl App {
+    /// Needs macroquad's window. `backdrop` is drawn until a server has sent its table.
+    pub(crate) fn new(options: Options, backdrop: Arc<Table>) -> Self {
+        let mut app = Self {
+            epoch: Instant::now(),
+            state: State::Lost { was_live: false, reason: String::new() },
+            embedded: None,
+            keyboard: Keyboard::new(),
+            controls: Controls::default(),
+            renderer: Renderer::new(&backdrop.file),
+            view: View::default(),
+            limiter: Limiter::new(options.fps),
+            is_full_screen: false,
+            shows_statistics: false,
+            report: Report::default(),
+            table: backdrop,
+            options,
+        };
+        app.connect();
+        app
+    }
+
+    /// One frame. `wants_quit`: the window is being closed.
+    pub(crate) fn frame(&mut self, wants_quit: bool) -> Step {
+        let now = self.now();
+        // 1. What the server said.
+        self.hear();
+        // 2. What the person at the window does.
+        let goes_on = self.poll_input();
+        // 3. The game as it is now: predicted for who plays, a little late for who watches.
+        if let State::Live(connection, session) = &mut self.state {
+            session.advance(now, &mut self.controls, connection);
+        }
+        // 4. That as plain data.
+        self.assemble(now);
+        // 5. The picture.
+        self.renderer.draw(&self.view);
+        self.report.drawn(now);
+        let is_pictured = self.take_picture(now);
+        if wants_quit || !goes_on || is_pictured {
+            return Step::Quit;
+        }
+        // 6. The rest of the frame's time.
+        std::thread::sleep(self.limiter.pause(self.now()));
+        Step::Continue
+    }
+
+    /// Ends the connection and the embedded server, and says what was counted.
+    pub(crate) fn end(mut self) -> Report {
+        if let State::Live(connection, session) = &mut self.state {
+            session.leave(connection);
+            self.report.add(&session.counts());
+        }
+        self.report
+    }
+
+    fn now(&self) -> f64 {
+        self.epoch.elapsed().as_secs_f64()
+    }
+
+    /// Connects, or tries again; a game's own server that has died is started anew.
+    fn connect(&mut self) {
+        let (address, role) = match &self.options.goal {
+            Goal::Play(address) => (address.clone(), Role::Play),
+            Goal::Watch(address) => (address.clone(), Role::Watch),
+            Goal::Own(table) => {
+                let running = self.embedded.take().filter(Embedded::is_alive);
+                match running.map_or_else(|| Embedded::start(Arc::clone(table)), Ok) {
+                    Ok(embedded) => (self.embedded.insert(embedded).address().to_string(), Role::Watch),
+                    Err(error) => return self.lose("NO SERVER HERE", &error),
+                }
+            }
+        };
+        let hello = Hello { name: self.options.name.clone(), role };
+        match Connection::open(address.clone(), hello, self.epoch) {
+            Ok(connection) => self.state = State::Connecting(connection, address),
+            Err(error) => self.lose(error.headline(), &error),
+        }
+    }
+
+    /// The connection has ended: the screen says it in short, the terminal in full.
+    fn lose(&mut self, headline: &str, error: &dyn std::error::Error) {
+        let was_live = if let State::Live(_, session) = &self.state {
+            self.report.add(&session.counts());
+            true
+        } else {
+            false
+        };
+        tracing::warn!("{error}");
+        self.state = State::Lost { was_live, reason: headline.to_owned() };
+    }
+
+    /// 1. Takes in everything that has come.
+    fn hear(&mut self) {
+        loop {
+            let incoming = match &mut self.state {
+                State::Connecting(connection, _) | State::Live(connection, _) => connection.poll(),
+                State::Lost { .. } => None,
+            };
+            let Some(incoming) = incoming else { return };
+            let heard = match (incoming, &mut self.state) {
+                (Incoming::Welcome(welcome), State::Connecting(..)) => Session::new(&welcome).map(|s| self.begin(s)),
+                (Incoming::Message { at, message }, State::Live(_, session)) => session.hear(at, message),
+                (Incoming::Ended(error), _) => return self.lose(error.headline(), &error),
+                _ => Ok(()),
+            };
+            if let Err(error) = heard {
+                return self.lose(error.headline(), &error);
+            }
+        }
+    }
+
+    fn begin(&mut self, session: Session) {
+        if session.table().digest != self.table.digest {
+            self.table = Arc::clone(session.table());
+            self.renderer = Renderer::new(&self.table.file);
+        }
+        let before = std::mem::replace(&mut self.state, State::Lost { was_live: false, reason: String::new() });
+        if let State::Connecting(connection, _) = before {
+            self.state = State::Live(connection, Box::new(session));
+        }
+    }
+
+    /// 2. Handles input; `false` if the person wants to quit.
+    fn poll_input(&mut self) -> bool {
+        let mut wishes = Vec::new();
+        self.keyboard.poll(&mut self.controls, |wish| wishes.push(wish));
+        for wish in wishes {
+            match (wish, &mut self.state) {
+                (Wish::Go, State::Live(connection, session)) => session.play(connection),
+                (Wish::Go, State::Lost { .. }) => self.connect(),
+                (Wish::Go, State::Connecting(..)) => {}
+                (Wish::Back, State::Live(connection, session)) => {
+                    if !session.leave(connection) {
+                        return false;
+                    }
+                }
+                (Wish::Back, _) => return false,
+                (Wish::FullScreen, _) => {
+                    self.is_full_screen = !self.is_full_screen;
+                    set_fullscreen(self.is_full_screen);
+                }
+                (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
+            }
+        }
+        true
+    }
+
+    /// 4. Puts the frame's view together.
+    fn assemble(&mut self, now: f64) {
+        self.view = match &mut self.state {
+            State::Live(_, session) => {
+                let words = screens::live(session, now);
+                assemble::view_of(session, words, now)
+            }
+            State::Connecting(_, address) => assemble::still_view(&self.table, screens::connecting(address), now),
+            State::Lost { was_live, reason } => {
+                let words = screens::lost(*was_live, reason);
+                // What was seen last stands still behind the words.
+                let last = std::mem::take(&mut self.view);
+                assemble::over(last, &self.table, words, now)
+            }
+        };
+        if self.shows_statistics {
+            self.view.hud.message = self.statistics();
+        }
+    }
+
+    /// What F3 puts on the display.
+    fn statistics(&self) -> String {
+        let counts = match &self.state {
+            State::Live(_, session) => session.counts(),
+            _ => Default::default(),
+        };
+        format!("FPS {:.0} LEAD {:.0} WRONG {}", self.report.fps(), counts.lead, counts.wrong)
+    }
+
+    /// Saves the picture that was asked for, if it is time; `true` if it was saved.
+    fn take_picture(&self, now: f64) -> bool {
+        let Some(screenshot) = self.options.screenshot.as_ref().filter(|screenshot| now >= screenshot.after) else {
+            return false;
+        };
+        let mut picture = get_screen_data();
+        // The window's alpha means nothing, but a viewer would take it for transparency.
+        picture.bytes.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = u8::MAX);
+        picture.export_png(&screenshot.file.to_string_lossy());
+        true
+    }
+}

@@ -1,0 +1,222 @@
+//! The command line: written form (what clap reads) -> checked form (what the program runs on).
+
+use std::ffi::OsStr;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use clap::{Parser, Subcommand};
+use shared::protocol::check_name;
+use shared::table::{MOST_TEXT, SHIPPED, Table};
+
+/// Pinball that many can watch and two can play. Without a command it opens a table of its own.
+#[derive(Debug, Parser)]
+#[command(name = "starball", version)]
+pub(crate) struct Arguments {
+    #[command(subcommand)]
+    command: Option<Command>,
+    /// What others call you; otherwise your user name [1 to 24 characters].
+    #[arg(long, global = true, value_parser = name)]
+    name: Option<String>,
+    /// A shipped table's name or a table file, for a table of your own.
+    #[arg(long, value_name = "NAME|FILE")]
+    table: Option<String>,
+    /// Saves a picture of the window and quits.
+    #[arg(long, global = true, value_name = "FILE.png", value_parser = png)]
+    screenshot: Option<PathBuf>,
+    /// Seconds to the picture.
+    #[arg(long, global = true, value_name = "SECONDS", default_value_t = 3.0, requires = "screenshot", value_parser = seconds)]
+    after: f64,
+    /// Frames a second at most; 0: as many as there can be.
+    #[arg(long, global = true, default_value_t = 60)]
+    fps: u32,
+    /// Prints at the end what was drawn, received and predicted.
+    #[arg(long, global = true)]
+    stats: bool,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Plays at somebody's server.
+    Play(Connect),
+    /// Watches at somebody's server.
+    Watch(Connect),
+}
+
+#[derive(Debug, clap::Args)]
+struct Connect {
+    /// Where the server listens.
+    #[arg(long, value_name = "HOST:PORT", value_parser = address)]
+    connect: String,
+}
+
+/// What to connect to.
+#[derive(Debug, Clone)]
+pub(crate) enum Goal {
+    /// A table of one's own.
+    Own(Arc<Table>),
+    /// A seat at somebody's server.
+    Play(String),
+    /// A view of it.
+    Watch(String),
+}
+
+/// A picture to be taken.
+#[derive(Debug, Clone)]
+pub(crate) struct Screenshot {
+    /// Where it goes; can be written.
+    pub(crate) file: PathBuf,
+    /// When, in seconds since the start.
+    pub(crate) after: f64,
+}
+
+/// What the program runs on.
+#[derive(Debug, Clone)]
+pub(crate) struct Options {
+    /// What to connect to.
+    pub(crate) goal: Goal,
+    /// Checked.
+    pub(crate) name: String,
+    /// A picture to be taken before quitting.
+    pub(crate) screenshot: Option<Screenshot>,
+    /// Frames a second, 0: no limit.
+    pub(crate) fps: u32,
+    /// Whether to print statistics at the end.
+    pub(crate) stats: bool,
+}
+
+impl Arguments {
+    /// Reads what has to be read, and checks the rest.
+    ///
+    /// # Errors
+    /// One line that says what is wrong.
+    pub(crate) fn check(self) -> Result<Options, String> {
+        let goal = match (self.command, self.table) {
+            (None, table) => Goal::Own(load_table(table.as_deref().unwrap_or("classic"))?),
+            (Some(_), Some(_)) => {
+                return Err(
+                    "--table is for a table of your own: the server that you connect to has chosen its".to_owned()
+                );
+            }
+            (Some(Command::Play(to)), None) => Goal::Play(to.connect),
+            (Some(Command::Watch(to)), None) => Goal::Watch(to.connect),
+        };
+        let screenshot = self.screenshot.map(|file| writable(Screenshot { file, after: self.after })).transpose()?;
+        let name = self.name.unwrap_or_else(user_name);
+        Ok(Options { goal, name, screenshot, fps: self.fps, stats: self.stats })
+    }
+}
+
+/// The user's name, if others can be shown it.
+fn user_name() -> String {
+    let user = std::env::var("USER").ok();
+    user.filter(|name| check_name(name).is_ok()).unwrap_or_else(|| "Player".to_owned())
+}
+
+fn name(text: &str) -> Result<String, String> {
+    check_name(text).map(|()| text.to_owned())
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.0..=86_400.0).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0 to 86400 would be right".to_owned()),
+    }
+}
+
+/// `HOST:PORT`; whether the host exists is found out later.
+fn address(text: &str) -> Result<String, String> {
+    let right = "HOST:PORT would be right, such as 192.168.1.20:7777 or [::1]:7777";
+    let (host, port) = text.rsplit_once(':').ok_or(right)?;
+    let bare = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
+    let is_host = match bare {
+        Some(six) => six.parse::<std::net::Ipv6Addr>().is_ok(),
+        None => !host.is_empty() && !host.contains(|c: char| c == ':' || c.is_whitespace() || c.is_control()),
+    };
+    match port.parse::<u16>() {
+        Ok(1..) if is_host => Ok(text.to_owned()),
+        _ => Err(right.to_owned()),
+    }
+}
+
+/// The picture's form follows from its name.
+fn png(text: &str) -> Result<PathBuf, String> {
+    let file = PathBuf::from(text);
+    let is_png = file.extension().and_then(OsStr::to_str).is_some_and(|end| end.eq_ignore_ascii_case("png"));
+    if is_png { Ok(file) } else { Err("a name that ends in .png would be right".to_owned()) }
+}
+
+/// Makes sure, before anything is drawn, that the picture can be saved.
+fn writable(screenshot: Screenshot) -> Result<Screenshot, String> {
+    match std::fs::OpenOptions::new().append(true).create(true).open(&screenshot.file) {
+        Ok(_) => Ok(screenshot),
+        Err(error) => Err(format!("cannot write {}: {error}", screenshot.file.display())),
+    }
+}
+
+/// A shipped table by name, or one from a file.
+fn load_table(name: &str) -> Result<Arc<Table>, String> {
+    let table = match Table::shipped(name) {
+        Some(shipped) => shipped,
+        None => Table::parse(name, &read_table(name)?),
+    };
+    table.map(Arc::new).map_err(|error| error.to_string())
+}
+
+fn read_table(file: &str) -> Result<String, String> {
+    let problem = |error: &dyn std::fmt::Display| {
+        let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
+        format!("{file:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
+    };
+    let size = std::fs::metadata(file).map_err(|error| problem(&error))?.len();
+    if size > MOST_TEXT as u64 {
+        return Err(problem(&format_args!("{size} bytes are more than {MOST_TEXT}")));
+    }
+    std::fs::read_to_string(file).map_err(|error| problem(&error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(arguments: &[&str]) -> Result<Options, String> {
+        let arguments = std::iter::once("starball").chain(arguments.iter().copied());
+        Arguments::try_parse_from(arguments).map_err(|error| error.to_string())?.check()
+    }
+
+    #[test]
+    fn addresses() {
+        for good in ["127.0.0.1:7777", "localhost:1", "[::1]:7777", "a.example:65535"] {
+            assert_eq!(address(good).as_deref(), Ok(good));
+        }
+        for bad in
+            ["", "localhost", "localhost:", ":7777", "localhost:0", "localhost:65536", "::1:7777", "a b:1", "[x]:1"]
+        {
+            assert!(address(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn commands() {
+        assert!(matches!(check(&[]).unwrap().goal, Goal::Own(table) if table.name == "Classic"));
+        let options = check(&["play", "--connect", "localhost:7777", "--name", "Ann"]).unwrap();
+        assert!(matches!(options.goal, Goal::Play(address) if address == "localhost:7777"));
+        assert_eq!((options.name.as_str(), options.fps), ("Ann", 60));
+        assert!(matches!(check(&["watch", "--connect", "[::1]:1"]).unwrap().goal, Goal::Watch(_)));
+        assert!(check(&["play"]).unwrap_err().contains("--connect"));
+        assert!(check(&["--name", " Ann"]).unwrap_err().contains("blanks"));
+        assert!(check(&["--table", "x", "play", "--connect", "localhost:1"]).unwrap_err().contains("of your own"));
+    }
+
+    #[test]
+    fn tables_and_pictures() {
+        assert!(check(&["--table", "no such"]).unwrap_err().contains("no shipped table (classic)"));
+        let file = std::env::temp_dir().join(format!("starball-{}.ron", std::process::id()));
+        std::fs::write(&file, "(\n    format: 1,\n    nonsense: 2,\n)").unwrap();
+        let problem = check(&["--table", file.to_str().unwrap()]).unwrap_err();
+        std::fs::remove_file(&file).unwrap();
+        assert!(problem.starts_with(&format!("{}:3: ", file.display())), "{problem}");
+        assert!(check(&["--screenshot", "/no/such/folder/x.png"]).unwrap_err().starts_with("cannot write /no/such"));
+        assert!(check(&["--screenshot", "x.jpg"]).unwrap_err().contains(".png"));
+        assert!(check(&["--screenshot", "x.png", "--after", "-1"]).is_err());
+    }
+}

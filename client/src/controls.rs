@@ -1,0 +1,268 @@
+//! What a player's hands do, as inputs with ticks. Knows keys, but neither window nor clock.
+//!
+//! Every change of a button gets a tick of its own: a key that goes down and up within one frame is a tap of
+//! [`TAP_TICKS`], not nothing.
+
+use macroquad::input::KeyCode;
+use shared::game::Action;
+use shared::protocol::TAP_TICKS;
+
+/// Seconds that the plunger's key is held for a full pull.
+const PULL_SECONDS: f64 = 1.0;
+/// Share of the pull that the slightest touch of the key gives: a tap moves the ball a little.
+const LEAST_PULL: f64 = 0.08;
+/// Seconds between two changes of the pull: a hand's tremor need not be sent.
+const PULL_EVERY: f64 = 0.02;
+
+/// Something that keys work.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Part {
+    Left,
+    Right,
+    Plunger,
+}
+
+const PARTS: [Part; 3] = [Part::Left, Part::Right, Part::Plunger];
+
+impl Part {
+    /// The part that a key works, and the key's bit among those of the part.
+    fn of_key(key: KeyCode) -> Option<(Self, u8)> {
+        Some(match key {
+            KeyCode::LeftShift => (Self::Left, 1),
+            KeyCode::Z => (Self::Left, 2),
+            KeyCode::Left => (Self::Left, 4),
+            KeyCode::A => (Self::Left, 8),
+            KeyCode::RightShift => (Self::Right, 1),
+            KeyCode::Slash => (Self::Right, 2),
+            KeyCode::Right => (Self::Right, 4),
+            KeyCode::D => (Self::Right, 8),
+            KeyCode::Space => (Self::Plunger, 1),
+            KeyCode::Down => (Self::Plunger, 2),
+            _ => return None,
+        })
+    }
+}
+
+/// A button and the keys that work it.
+#[derive(Debug, Clone, Copy, Default)]
+struct Button {
+    /// Keys that are down, one bit each.
+    keys: u8,
+    /// What the game was told.
+    told: bool,
+    /// The tick after which the next change may come.
+    after: u64,
+}
+
+/// The hands of one player.
+#[derive(Debug, Default)]
+pub(crate) struct Controls {
+    buttons: [Button; PARTS.len()],
+    /// Changes since the last frame, in order.
+    changes: Vec<(Part, bool)>,
+    /// Since when the plunger is held, and the share that was told last and when.
+    pull: Option<Pull>,
+    /// It was the player's turn in the last frame.
+    active: bool,
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Pull {
+    since: f64,
+    told: u16,
+    told_at: f64,
+}
+
+impl Controls {
+    /// A key went down. The keyboard's own repeats are no news.
+    pub(crate) fn key_down(&mut self, key: KeyCode) {
+        let Some((part, bit)) = Part::of_key(key) else { return };
+        let keys = &mut self.buttons[part as usize].keys;
+        if *keys == 0 {
+            self.changes.push((part, true));
+        }
+        *keys |= bit;
+    }
+
+    /// A key went up. A button with two keys on it is released with the second.
+    pub(crate) fn key_up(&mut self, key: KeyCode) {
+        let Some((part, bit)) = Part::of_key(key) else { return };
+        let keys = &mut self.buttons[part as usize].keys;
+        if *keys == bit {
+            self.changes.push((part, false));
+        }
+        *keys &= !bit;
+    }
+
+    /// The keyboard is somebody else's now: everything is let go.
+    pub(crate) fn release_all(&mut self) {
+        for part in PARTS {
+            if std::mem::take(&mut self.buttons[part as usize].keys) != 0 {
+                self.changes.push((part, false));
+            }
+        }
+    }
+
+    /// What to do at which tick, in a frame at `now` seconds, in which inputs can act from `tick` on. Only who has the
+    /// turn (`active`) does anything; what is held when the turn begins acts from then on.
+    pub(crate) fn frame(&mut self, now: f64, tick: u64, active: bool, mut act: impl FnMut(u64, Action)) {
+        let mut changes = std::mem::take(&mut self.changes);
+        if active != self.active {
+            self.active = active;
+            self.pull = None;
+            for button in &mut self.buttons {
+                *button = Button { keys: button.keys, ..Button::default() };
+            }
+            changes =
+                PARTS.into_iter().filter(|&part| self.buttons[part as usize].keys != 0).map(|p| (p, true)).collect();
+        }
+        if !active {
+            return;
+        }
+        let mut changed = [false; PARTS.len()];
+        for (part, pressed) in changes {
+            let button = &mut self.buttons[part as usize];
+            if button.told == pressed {
+                continue;
+            }
+            button.told = pressed;
+            // A second change in one frame happened some milliseconds after the first; in a later frame, later.
+            let changed = &mut changed[part as usize];
+            let at = tick.max(button.after + if *changed { TAP_TICKS - 1 } else { 0 });
+            *changed = true;
+            button.after = at + 1;
+            match part {
+                Part::Left => act(at, Action::Flipper { right: false, pressed }),
+                Part::Right => act(at, Action::Flipper { right: true, pressed }),
+                Part::Plunger if pressed => {
+                    let pull = Pull { since: now, told: share(0.0), told_at: now };
+                    self.pull = Some(pull);
+                    act(at, Action::Pull(pull.told));
+                }
+                Part::Plunger => {
+                    self.pull = None;
+                    act(at, Action::Release);
+                }
+            }
+        }
+        if let Some(pull) = &mut self.pull {
+            let share = share(now - pull.since);
+            if share != pull.told && now - pull.told_at >= PULL_EVERY {
+                (pull.told, pull.told_at) = (share, now);
+                let after = &mut self.buttons[Part::Plunger as usize].after;
+                let at = tick.max(*after);
+                *after = at + 1;
+                act(at, Action::Pull(share));
+            }
+        }
+    }
+}
+
+/// How far the plunger is pulled after that many seconds, in 65535ths.
+fn share(seconds: f64) -> u16 {
+    let share = LEAST_PULL + (1.0 - LEAST_PULL) * (seconds / PULL_SECONDS).clamp(0.0, 1.0);
+    (share * f64::from(u16::MAX)) as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const LEFT: Action = Action::Flipper { right: false, pressed: true };
+    const LEFT_UP: Action = Action::Flipper { right: false, pressed: false };
+    const RIGHT: Action = Action::Flipper { right: true, pressed: true };
+
+    fn active() -> Controls {
+        let mut controls = Controls::default();
+        assert!(frame(&mut controls, 0.0, 0).is_empty());
+        controls
+    }
+
+    fn frame(controls: &mut Controls, now: f64, tick: u64) -> Vec<(u64, Action)> {
+        let mut acts = Vec::new();
+        controls.frame(now, tick, true, |tick, action| acts.push((tick, action)));
+        acts
+    }
+
+    #[test]
+    fn a_tap_within_one_frame_lasts() {
+        let mut controls = active();
+        controls.key_down(KeyCode::Z);
+        controls.key_up(KeyCode::Z);
+        controls.key_down(KeyCode::Z);
+        let acts = frame(&mut controls, 1.0, 100);
+        assert_eq!(acts, [(100, LEFT), (100 + TAP_TICKS, LEFT_UP), (100 + 2 * TAP_TICKS, LEFT)]);
+        // The next frame comes before those ticks: order is kept.
+        controls.key_up(KeyCode::Z);
+        assert_eq!(frame(&mut controls, 1.001, 101), [(101 + 2 * TAP_TICKS, LEFT_UP)]);
+    }
+
+    #[test]
+    fn order_between_buttons_and_frames_is_kept() {
+        let mut controls = active();
+        controls.key_down(KeyCode::LeftShift);
+        controls.key_down(KeyCode::RightShift);
+        assert_eq!(frame(&mut controls, 1.0, 100), [(100, LEFT), (100, RIGHT)]);
+        controls.key_up(KeyCode::LeftShift);
+        assert_eq!(frame(&mut controls, 1.1, 200), [(200, LEFT_UP)]);
+    }
+
+    #[test]
+    fn two_keys_of_a_flipper_are_one_button() {
+        let mut controls = active();
+        controls.key_down(KeyCode::Left);
+        controls.key_down(KeyCode::A);
+        controls.key_down(KeyCode::A);
+        controls.key_up(KeyCode::Left);
+        assert_eq!(frame(&mut controls, 1.0, 100), [(100, LEFT)]);
+        controls.key_up(KeyCode::A);
+        controls.key_up(KeyCode::A);
+        assert_eq!(frame(&mut controls, 1.1, 200), [(200, LEFT_UP)]);
+    }
+
+    #[test]
+    fn lost_focus_releases_and_late_key_ups_are_nothing() {
+        let mut controls = active();
+        controls.key_down(KeyCode::Left);
+        controls.key_down(KeyCode::Space);
+        frame(&mut controls, 1.0, 100);
+        controls.release_all();
+        assert_eq!(frame(&mut controls, 1.1, 200), [(200, LEFT_UP), (200, Action::Release)]);
+        controls.key_up(KeyCode::Left);
+        controls.key_up(KeyCode::Space);
+        assert!(frame(&mut controls, 1.2, 300).is_empty());
+    }
+
+    #[test]
+    fn the_pull_grows_while_the_key_is_held() {
+        let mut controls = active();
+        controls.key_down(KeyCode::Space);
+        let mut pulls = Vec::new();
+        for k in 0..150_u32 {
+            for (tick, action) in frame(&mut controls, f64::from(k) * 0.011, u64::from(k) * 11) {
+                let Action::Pull(share) = action else { panic!("{action:?} at {tick}") };
+                pulls.push((tick, share));
+            }
+        }
+        assert!(pulls.windows(2).all(|pair| pair[0].1 < pair[1].1 && pair[1].0 >= pair[0].0 + 20), "{pulls:?}");
+        assert!((45..=52).contains(&pulls.len()) && pulls.last().unwrap().1 == u16::MAX, "{pulls:?}");
+        controls.key_up(KeyCode::Space);
+        assert_eq!(frame(&mut controls, 1.5, 1500), [(1500, Action::Release)]);
+    }
+
+    #[test]
+    fn what_is_held_when_the_turn_begins_acts_then() {
+        let mut controls = Controls::default();
+        controls.key_down(KeyCode::Space);
+        controls.frame(1.0, 100, false, |_, _| panic!("not the player's turn"));
+        controls.key_down(KeyCode::D);
+        controls.frame(1.1, 110, false, |_, _| panic!("not the player's turn"));
+        let acts = frame(&mut controls, 2.0, 200);
+        assert_eq!(acts, [(200, RIGHT), (200, Action::Pull(share(0.0)))]);
+        // And what is held when it ends is over.
+        controls.frame(3.0, 300, false, |_, _| panic!("not the player's turn"));
+        controls.key_up(KeyCode::D);
+        controls.key_up(KeyCode::Space);
+        assert!(frame(&mut controls, 4.0, 400).is_empty());
+    }
+}

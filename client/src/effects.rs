@@ -1,0 +1,112 @@
+//! What events leave to be seen for a moment: flashes, points that float up, a line on the display.
+
+use macroquad::math::{Vec2, vec2};
+use shared::game::{GameEvent, GameEventKind};
+use shared::table::Table;
+
+use crate::view::Popup;
+
+/// Seconds that an element's flash takes to fade.
+const FLASH_SECONDS: f64 = 0.33;
+/// Seconds that points float.
+const POPUP_SECONDS: f64 = 1.0;
+/// Seconds that a line stays on the display.
+const MESSAGE_SECONDS: f64 = 2.5;
+/// Points that float at once; the oldest go first.
+const MOST_POPUPS: usize = 24;
+
+/// What is to be seen of past events.
+#[derive(Debug, Default)]
+pub(crate) struct Effects {
+    /// For each element that was hit, when.
+    hits: Vec<Option<f64>>,
+    /// (When, where, what).
+    popups: Vec<(f64, Vec2, u64)>,
+    message: Option<(f64, String)>,
+}
+
+impl Effects {
+    /// Takes in what happened, seen at `now` seconds.
+    pub(crate) fn note(&mut self, event: &GameEvent, table: &Table, now: f64) {
+        match event.kind {
+            GameEventKind::Kicked { element, .. }
+            | GameEventKind::Felled { element, .. }
+            | GameEventKind::Passed { element } => self.flash(element, now),
+            GameEventKind::Points { points, place: Some((x, y)), .. } => {
+                if self.popups.len() == MOST_POPUPS {
+                    self.popups.remove(0);
+                }
+                self.popups.push((now, vec2(x, y), points));
+            }
+            GameEventKind::Message { place } => {
+                if let Some(text) = table.rules.messages.get(usize::from(place)) {
+                    self.say(text.clone(), now);
+                }
+            }
+            GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
+            GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
+            GameEventKind::Rescued => self.say("NEW BALL".to_owned(), now),
+            _ => {}
+        }
+    }
+
+    /// Puts a line on the display.
+    pub(crate) fn say(&mut self, text: String, now: f64) {
+        self.message = Some((now, text));
+    }
+
+    /// The line on the display, if one is fresh.
+    pub(crate) fn message(&self, now: f64) -> Option<&str> {
+        let (since, text) = self.message.as_ref()?;
+        (now - since < MESSAGE_SECONDS).then_some(text)
+    }
+
+    /// How bright an element flashes, 0 to 1.
+    pub(crate) fn flash_of(&self, element: usize, now: f64) -> f32 {
+        let hit = self.hits.get(element).copied().flatten();
+        hit.map_or(0.0, |hit| (1.0 - (now - hit) / FLASH_SECONDS).clamp(0.0, 1.0) as f32)
+    }
+
+    /// Points that float now. Forgets those that are gone.
+    pub(crate) fn popups(&mut self, now: f64) -> Vec<Popup> {
+        self.popups.retain(|(born, ..)| now - born < POPUP_SECONDS);
+        let popup = |&(born, position, points): &(f64, Vec2, u64)| {
+            let age = ((now - born) / POPUP_SECONDS).clamp(0.0, 1.0) as f32;
+            Popup { position, text: format!("+{points}"), age }
+        };
+        self.popups.iter().map(popup).collect()
+    }
+
+    fn flash(&mut self, element: u16, now: f64) {
+        let element = usize::from(element);
+        if self.hits.len() <= element {
+            self.hits.resize(element + 1, None);
+        }
+        self.hits[element] = Some(now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everything_fades() {
+        let table = Table::shipped("classic").unwrap().unwrap();
+        let mut effects = Effects::default();
+        let mut note = |kind| effects.note(&GameEvent { tick: 0, kind }, &table, 10.0);
+        note(GameEventKind::Kicked { element: 3, speed: 1.0 });
+        note(GameEventKind::Points { seat: 0, points: 500, place: Some((0.1, 0.2)) });
+        note(GameEventKind::Points { seat: 0, points: 9, place: None });
+        note(GameEventKind::Message { place: 0 });
+        note(GameEventKind::Message { place: u16::MAX });
+        assert_eq!((effects.flash_of(3, 10.0), effects.flash_of(2, 10.0), effects.flash_of(99, 10.0)), (1.0, 0.0, 0.0));
+        assert!((0.4..0.6).contains(&effects.flash_of(3, 10.165)));
+        assert_eq!(effects.flash_of(3, 10.5), 0.0);
+        assert_eq!(effects.message(12.0), Some(table.rules.messages[0].as_str()));
+        assert_eq!(effects.message(12.6), None);
+        let popups = effects.popups(10.5);
+        assert_eq!((popups.len(), popups[0].text.as_str(), popups[0].age), (1, "+500", 0.5));
+        assert!(effects.popups(11.5).is_empty());
+    }
+}

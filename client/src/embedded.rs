@@ -1,0 +1,111 @@
+//! The server that the native game brings along: one table on this machine, for this machine.
+
+use std::net::{Ipv4Addr, SocketAddr, TcpListener};
+use std::sync::Arc;
+use std::thread::JoinHandle;
+
+use shared::table::Table;
+use starball_server::{Account, Config, ServerError};
+use thiserror::Error;
+use tokio::sync::oneshot;
+
+/// Why there is no embedded server.
+#[derive(Debug, Error)]
+pub(crate) enum EmbeddedError {
+    /// No socket, thread or runtime for it.
+    #[error("the game's own server cannot be started: {0}")]
+    Start(#[from] std::io::Error),
+    /// It ended with an error.
+    #[error("the game's own server failed: {0}")]
+    Failed(#[from] ServerError),
+}
+
+/// A server on a thread of this process. Ends when it is dropped.
+#[derive(Debug)]
+pub(crate) struct Embedded {
+    address: SocketAddr,
+    stop: Option<oneshot::Sender<()>>,
+    thread: Option<JoinHandle<Result<Account, ServerError>>>,
+}
+
+impl Embedded {
+    /// Starts a server for `table` on a free port that only this machine reaches.
+    ///
+    /// # Errors
+    /// If there is no socket, thread or runtime for it.
+    pub(crate) fn start(table: Arc<Table>) -> Result<Self, EmbeddedError> {
+        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+        listener.set_nonblocking(true)?;
+        let address = listener.local_addr()?;
+        // One worker: the window's thread and the network's thread want processors too.
+        let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build()?;
+        let (stop, stopped) = oneshot::channel();
+        let listener = {
+            let _within = runtime.enter();
+            tokio::net::TcpListener::from_std(listener)?
+        };
+        let thread = std::thread::Builder::new().name("server".to_owned()).spawn(move || {
+            // Told to stop, or dropped without a word: the same.
+            let shutdown = async { drop(stopped.await) };
+            runtime.block_on(starball_server::run(listener, Config::new(table), shutdown))
+        })?;
+        Ok(Self { address, stop: Some(stop), thread: Some(thread) })
+    }
+
+    /// Where it listens.
+    pub(crate) fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Whether it still runs.
+    pub(crate) fn is_alive(&self) -> bool {
+        self.thread.as_ref().is_some_and(|thread| !thread.is_finished())
+    }
+}
+
+impl Drop for Embedded {
+    fn drop(&mut self) {
+        self.stop = None;
+        match self.thread.take().map(JoinHandle::join) {
+            Some(Ok(Ok(account))) => tracing::debug!("{account}"),
+            Some(Ok(Err(error))) => tracing::warn!("{error}"),
+            Some(Err(_)) => tracing::warn!("the server's thread failed"),
+            None => {}
+        }
+    }
+}
+
+/// Serves `table` until Ctrl-C, with nobody but the bot at it; `ready` learns the address.
+///
+/// # Errors
+/// If the server cannot be started, or fails.
+pub(crate) fn serve_alone(table: Arc<Table>, ready: impl FnOnce(SocketAddr)) -> Result<Account, EmbeddedError> {
+    let runtime = tokio::runtime::Runtime::new()?;
+    runtime.block_on(async {
+        let listener = tokio::net::TcpListener::bind((Ipv4Addr::LOCALHOST, 0)).await?;
+        ready(listener.local_addr()?);
+        let shutdown = async {
+            // Without a handler the process simply ends at Ctrl-C.
+            if tokio::signal::ctrl_c().await.is_err() {
+                std::future::pending::<()>().await;
+            }
+        };
+        Ok(starball_server::run(listener, Config::new(table), shutdown).await?)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_until_dropped() {
+        let table = Arc::new(Table::shipped("classic").unwrap().unwrap());
+        let embedded = Embedded::start(table).unwrap();
+        assert!(embedded.is_alive() && embedded.address().ip().is_loopback());
+        let address = embedded.address();
+        drop(std::net::TcpStream::connect(address).unwrap());
+        drop(embedded);
+        assert!(std::net::TcpStream::connect(address).is_err());
+    }
+}

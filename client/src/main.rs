@@ -1,0 +1,138 @@
+//! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
+//!
+//! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's game), `timing`, `snapshots`
+//! and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects` and `assemble` (what
+//! goes into a `view`), `render` (draws it).
+
+mod app;
+mod arguments;
+mod assemble;
+mod controls;
+mod display;
+mod effects;
+mod embedded;
+mod input;
+mod limiter;
+mod moment;
+mod net;
+mod prediction;
+mod render;
+mod report;
+mod screens;
+mod session;
+mod snapshots;
+mod timing;
+mod view;
+
+use std::cell::Cell;
+use std::io::IsTerminal;
+use std::process::ExitCode;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use clap::Parser;
+use macroquad::input::{is_quit_requested, prevent_quit};
+use macroquad::miniquad::conf::{Conf, Platform};
+use macroquad::window::next_frame;
+use shared::table::{SHIPPED, Table};
+use tracing_subscriber::EnvFilter;
+
+use app::{App, Step};
+use arguments::{Arguments, Goal, Options};
+
+fn main() -> ExitCode {
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(problem) => {
+            eprintln!("starball: {problem}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run() -> Result<(), String> {
+    let options = Arguments::parse().check()?;
+    match (display::check(), &options.goal) {
+        (Ok(()), _) => {
+            log("warn");
+            in_window(options)
+        }
+        (Err(problem), Goal::Own(table)) if options.screenshot.is_none() => {
+            log("info");
+            without_window(&problem, Arc::clone(table))
+        }
+        (Err(problem), _) => Err(problem),
+    }
+}
+
+/// Log lines go to the terminal; `level` holds unless RUST_LOG says otherwise.
+fn log(level: &str) {
+    let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new(level));
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
+        .with_target(false)
+        .init();
+}
+
+/// Runs the program in a window until it is closed.
+fn in_window(options: Options) -> Result<(), String> {
+    let backdrop = match &options.goal {
+        Goal::Own(table) => Arc::clone(table),
+        // Until the server has sent its own.
+        Goal::Play(_) | Goal::Watch(_) => first_shipped()?,
+    };
+    let prints_report = options.stats;
+    let report = Rc::new(Cell::new(None));
+    let outcome = Rc::clone(&report);
+    let conf = Conf {
+        window_title: "Starball".to_owned(),
+        window_width: 1280,
+        window_height: 720,
+        high_dpi: true,
+        window_resizable: true,
+        platform: Platform { linux_wm_class: "starball", ..Platform::default() },
+        ..Conf::default()
+    };
+    macroquad::Window::from_config(conf, async move {
+        prevent_quit();
+        let mut app = App::new(options, backdrop);
+        while app.frame(is_quit_requested()) == Step::Continue {
+            next_frame().await;
+        }
+        outcome.set(Some(app.end()));
+    });
+    if let (true, Some(report)) = (prints_report, report.take()) {
+        println!("{report}");
+    }
+    Ok(())
+}
+
+fn first_shipped() -> Result<Arc<Table>, String> {
+    let (name, source) = SHIPPED.first().ok_or("no table is shipped")?;
+    Table::parse(name, source).map(Arc::new).map_err(|error| error.to_string())
+}
+
+/// Where there is no display, the bot plays for whoever watches from elsewhere.
+fn without_window(problem: &str, table: Arc<Table>) -> Result<(), String> {
+    let account = embedded::serve_alone(table, |address| {
+        println!(
+            "{problem}: the bot plays at {address}, for this machine alone; to watch from another one, run \
+             `starball-server --listen 0.0.0.0:7777` here and `starball watch --connect {}:7777` there",
+            own_address()
+        );
+    });
+    println!("{}", account.map_err(|error| error.to_string())?);
+    Ok(())
+}
+
+/// This machine's address as others see it, or a word that stands for it. Connecting a UDP socket sends nothing; it
+/// only finds out which way out there is.
+fn own_address() -> String {
+    let address = std::net::UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
+        socket.connect("192.0.2.1:9")?;
+        socket.local_addr()
+    });
+    address.map_or_else(|_| "HOST".to_owned(), |address| address.ip().to_string())
+}

@@ -1,0 +1,42 @@
+//! What is to be seen at one moment: the same form whether it was predicted or interpolated.
+
+use macroquad::math::DVec2;
+use shared::game::Game;
+use shared::physics::ball::Instant;
+
+/// A ball's centre, metres, and velocity, m/s.
+pub(crate) type Motion = (DVec2, DVec2);
+
+/// What is to be seen at one moment.
+#[derive(Debug)]
+pub(crate) struct Moment<'a> {
+    /// Balls in play.
+    pub(crate) balls: Vec<Motion>,
+    /// For each flipper, how far it is raised, radians.
+    pub(crate) flippers: Vec<f64>,
+    /// For each plunger, how far it is pulled, metres.
+    pub(crate) plungers: Vec<f64>,
+    /// Everything that does not move: turn, points, lights, targets.
+    pub(crate) game: &'a Game,
+}
+
+impl<'a> Moment<'a> {
+    /// A game as it is, a fraction of a tick after its last one.
+    pub(crate) fn of(game: &'a Game, fraction: f64) -> Self {
+        let dt = game.table().scene.tick_seconds;
+        let now = Instant { tick: game.tick(), offset: fraction * dt };
+        let state = game.world().state();
+        Self {
+            balls: state.balls.iter().map(|ball| ball.at(now, dt)).collect(),
+            flippers: state.flippers.iter().map(|flipper| flipper.swing).collect(),
+            plungers: state.plungers.iter().map(|plunger| plunger.pull).collect(),
+            game,
+        }
+    }
+}
+
+/// A tick with its fraction as an instant of the world.
+pub(crate) fn instant(tick: f64, tick_seconds: f64) -> Instant {
+    let whole = tick.max(0.0).floor();
+    Instant { tick: whole as u64, offset: (tick.max(0.0) - whole) * tick_seconds }
+}
