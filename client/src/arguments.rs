@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use clap::{Parser, Subcommand};
 use shared::protocol::check_name;
-use shared::table::{MOST_TEXT, SHIPPED, Table};
+use shared::table::Table;
+use starball_server::load_table;
 
 /// Pinball that many can watch and two can play. Without a command it opens a table of its own.
 #[derive(Debug, Parser)]
@@ -63,10 +64,21 @@ pub(crate) enum Goal {
 /// A picture to be taken.
 #[derive(Debug, Clone)]
 pub(crate) struct Screenshot {
-    /// Where it goes; can be written.
+    /// Where it goes.
     pub(crate) file: PathBuf,
     /// When, in seconds since the start.
     pub(crate) after: f64,
+}
+
+impl Screenshot {
+    /// Makes sure, before anything is drawn, that the picture can be saved.
+    ///
+    /// # Errors
+    /// One line that says why not.
+    pub(crate) fn reserve(&self) -> Result<(), String> {
+        let opened = std::fs::OpenOptions::new().append(true).create(true).open(&self.file);
+        opened.map(drop).map_err(|error| format!("cannot write {}: {error}", self.file.display()))
+    }
 }
 
 /// What the program runs on.
@@ -100,7 +112,7 @@ impl Arguments {
             (Some(Command::Play(to)), None) => Goal::Play(to.connect),
             (Some(Command::Watch(to)), None) => Goal::Watch(to.connect),
         };
-        let screenshot = self.screenshot.map(|file| writable(Screenshot { file, after: self.after })).transpose()?;
+        let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
         let name = self.name.unwrap_or_else(user_name);
         Ok(Options { goal, name, screenshot, fps: self.fps, stats: self.stats })
     }
@@ -145,35 +157,6 @@ fn png(text: &str) -> Result<PathBuf, String> {
     if is_png { Ok(file) } else { Err("a name that ends in .png would be right".to_owned()) }
 }
 
-/// Makes sure, before anything is drawn, that the picture can be saved.
-fn writable(screenshot: Screenshot) -> Result<Screenshot, String> {
-    match std::fs::OpenOptions::new().append(true).create(true).open(&screenshot.file) {
-        Ok(_) => Ok(screenshot),
-        Err(error) => Err(format!("cannot write {}: {error}", screenshot.file.display())),
-    }
-}
-
-/// A shipped table by name, or one from a file.
-fn load_table(name: &str) -> Result<Arc<Table>, String> {
-    let table = match Table::shipped(name) {
-        Some(shipped) => shipped,
-        None => Table::parse(name, &read_table(name)?),
-    };
-    table.map(Arc::new).map_err(|error| error.to_string())
-}
-
-fn read_table(file: &str) -> Result<String, String> {
-    let problem = |error: &dyn std::fmt::Display| {
-        let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
-        format!("{file:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
-    };
-    let size = std::fs::metadata(file).map_err(|error| problem(&error))?.len();
-    if size > MOST_TEXT as u64 {
-        return Err(problem(&format_args!("{size} bytes are more than {MOST_TEXT}")));
-    }
-    std::fs::read_to_string(file).map_err(|error| problem(&error))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,7 +198,8 @@ mod tests {
         let problem = check(&["--table", file.to_str().unwrap()]).unwrap_err();
         std::fs::remove_file(&file).unwrap();
         assert!(problem.starts_with(&format!("{}:3: ", file.display())), "{problem}");
-        assert!(check(&["--screenshot", "/no/such/folder/x.png"]).unwrap_err().starts_with("cannot write /no/such"));
+        let screenshot = check(&["--screenshot", "/no/such/folder/x.png"]).unwrap().screenshot.unwrap();
+        assert!(screenshot.reserve().unwrap_err().starts_with("cannot write /no/such"));
         assert!(check(&["--screenshot", "x.jpg"]).unwrap_err().contains(".png"));
         assert!(check(&["--screenshot", "x.png", "--after", "-1"]).is_err());
     }

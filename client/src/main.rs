@@ -38,7 +38,7 @@ use shared::table::{SHIPPED, Table};
 use tracing_subscriber::EnvFilter;
 
 use app::{App, Step};
-use arguments::{Arguments, Goal, Options};
+use arguments::{Arguments, Goal, Options, Screenshot};
 
 fn main() -> ExitCode {
     match run() {
@@ -54,7 +54,8 @@ fn run() -> Result<(), String> {
     let options = Arguments::parse().check()?;
     match (display::check(), &options.goal) {
         (Ok(()), _) => {
-            log("warn");
+            // What the game's own server has to say is for a server's host, not for a player.
+            log("warn,starball_server=error");
             in_window(options)
         }
         (Err(problem), Goal::Own(table)) if options.screenshot.is_none() => {
@@ -78,6 +79,7 @@ fn log(level: &str) {
 
 /// Runs the program in a window until it is closed.
 fn in_window(options: Options) -> Result<(), String> {
+    options.screenshot.as_ref().map_or(Ok(()), Screenshot::reserve)?;
     let backdrop = match &options.goal {
         Goal::Own(table) => Arc::clone(table),
         // Until the server has sent its own.

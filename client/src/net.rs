@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 use bytes::Bytes;
 use futures_util::{SinkExt, StreamExt};
 use shared::protocol::{
-    ClientMessage, FrameError, Hello, MOST_FROM_SERVER, PreambleError, ServerMessage, Welcome, decode, decode_greeting, encode,
-    encode_greeting,
+    ClientMessage, FrameError, Hello, MOST_FROM_SERVER, PreambleError, ServerMessage, Welcome, decode, decode_greeting,
+    encode, encode_greeting,
 };
 use thiserror::Error;
 use tokio::net::TcpStream;
@@ -19,6 +19,8 @@ use tokio_util::codec::{FramedRead, FramedWrite, LengthDelimitedCodec};
 
 /// How long a server may take to be reached, and then to welcome us.
 const CONNECT_TIME: Duration = Duration::from_secs(5);
+/// How long a server that sends sixty snapshots a second may be silent: its machine, or the way to it, is gone.
+const SILENT_TIME: Duration = Duration::from_secs(5);
 /// How long the last words may take.
 const GOODBYE_TIME: Duration = Duration::from_millis(500);
 /// Messages that may wait for the frame loop: four seconds' worth. Beyond it the server is not read any further, and
@@ -45,6 +47,9 @@ pub(crate) enum NetError {
     /// The connection broke.
     #[error("the connection broke: {0}")]
     Broken(#[from] std::io::Error),
+    /// Nothing came for too long.
+    #[error("the server has fallen silent")]
+    Silent,
     /// The server ended it without a word.
     #[error("the server closed the connection")]
     Closed,
@@ -66,7 +71,7 @@ impl NetError {
             Self::Start(_) => "NO NETWORK HERE",
             Self::Connect { error, .. } if error.kind() == std::io::ErrorKind::ConnectionRefused => "NO SERVER THERE",
             Self::Connect { .. } => "CANNOT BE REACHED",
-            Self::Timeout { .. } => "NO ANSWER",
+            Self::Timeout { .. } | Self::Silent => "NO ANSWER",
             Self::Broken(_) | Self::Closed => "THE SERVER IS GONE",
             Self::Frame(FrameError::Preamble(PreambleError::Foreign)) | Self::NoGreeting => "NOT A STARBALL SERVER",
             Self::Frame(FrameError::Preamble(_)) => "ANOTHER RELEASE THERE",
@@ -192,7 +197,7 @@ impl Wire {
             let mut reader = reader;
             // If the frame loop has hung up, the other half ends this.
             let _ = to_loop.send(Incoming::Welcome(welcome)).await;
-            while let Some(frame) = reader.next().await {
+            while let Some(frame) = timeout(SILENT_TIME, reader.next()).await.map_err(|_| NetError::Silent)? {
                 let message = decode(&frame?)?;
                 let at = epoch.elapsed().as_secs_f64();
                 let _ = to_loop.send(Incoming::Message { at, message }).await;

@@ -52,7 +52,11 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
     let Some(moment) = session.moment() else { return Words { message: "WELCOME".to_owned(), ..connecting("") } };
     let standing = Standing::of(session, &moment);
     let (banner, sub_banner) = standing.banner(now);
-    let message = session.effects().message(now).map_or_else(|| standing.message(), str::to_owned);
+    let message = match session.effects().message(now) {
+        _ if session.is_silent(now) => "NO SIGNAL".to_owned(),
+        Some(message) => message.to_owned(),
+        None => standing.message(),
+    };
     Words { message, keys: standing.keys(), banner, sub_banner }
 }
 

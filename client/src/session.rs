@@ -28,8 +28,12 @@ const EARLY: f64 = 0.006;
 const MARGIN: f64 = 1.0 / 60.0 + EARLY;
 /// Seconds that the prediction is ahead at most. The server allows inputs 0.25 s ahead.
 const MOST_LEAD: f64 = 0.2;
-/// Ticks from the newest snapshot at which a prediction waits for the next one: the server has stalled.
-const MOST_AHEAD: f64 = 500.0;
+/// Seconds from the newest snapshot at which a prediction waits for the next one: the server has stalled.
+const MOST_AHEAD: f64 = 0.3;
+/// Seconds that a prediction may be ahead of where it should be; beyond that the server has lost time, and it begins anew.
+const MOST_EXCESS: f64 = 0.05;
+/// Seconds without a snapshot after which the person at the window is told.
+const SILENCE: f64 = 1.0;
 /// Seconds between two pings.
 const PING_EVERY: f64 = 0.25;
 /// Pings that may be unanswered; older ones are forgotten.
@@ -104,6 +108,8 @@ pub(crate) struct Session {
     shown: f64,
     /// Events before this tick have been shown.
     events_shown: u64,
+    /// When the last snapshot came.
+    heard_at: f64,
     next_ping: f64,
     nonce: u64,
     /// Pings that wait for an answer: nonce and when they were sent.
@@ -137,6 +143,7 @@ impl Session {
             effects: Effects::default(),
             shown: 0.0,
             events_shown: 0,
+            heard_at: 0.0,
             next_ping: 0.0,
             nonce: 0,
             pings: VecDeque::new(),
@@ -155,6 +162,7 @@ impl Session {
                 self.clock.arrived(snapshot.state.world.tick, at);
                 self.snapshots.push(snapshot)?;
                 self.counts.snapshots += 1;
+                self.heard_at = at;
             }
             ServerMessage::Roster(roster) => self.roster = roster,
             ServerMessage::You { seat, line } => {
@@ -219,9 +227,9 @@ impl Session {
             return;
         };
 
-        let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD);
+        let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD / dt);
         let prediction = match &mut self.prediction {
-            Some(prediction) if prediction.seat() == seat => {
+            Some(prediction) if prediction.seat() == seat && (prediction.tick() as f64) < target + MOST_EXCESS / dt => {
                 match prediction.confirm(newest) {
                     Some(Verdict::Right) => self.counts.right += 1,
                     Some(Verdict::Wrong) => self.counts.wrong += 1,
@@ -256,6 +264,11 @@ impl Session {
             Some(prediction) => Some(prediction.now((self.shown - prediction.tick() as f64).clamp(0.0, 1.0))),
             None => self.snapshots.at(self.shown),
         }
+    }
+
+    /// Whether the server has said nothing for a while.
+    pub(crate) fn is_silent(&self, now: f64) -> bool {
+        now - self.heard_at > SILENCE
     }
 
     /// The table that is played.
@@ -315,3 +328,6 @@ impl Session {
         connection.send(ClientMessage::Ping { nonce: self.nonce });
     }
 }
+
+#[cfg(test)]
+mod tests;

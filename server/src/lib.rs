@@ -13,6 +13,7 @@ mod pacing;
 mod room;
 mod session;
 pub mod simulate;
+mod tables;
 
 use std::future::Future;
 use std::sync::Arc;
@@ -26,6 +27,7 @@ use tokio::task::JoinSet;
 pub use account::Account;
 pub use config::Config;
 pub use session::{SessionState, is_legal};
+pub use tables::load_table;
 
 /// Shared frames that a slow client may be behind before it loses some: one second's.
 const FRAMES_BEHIND: usize = 64;

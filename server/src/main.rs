@@ -1,13 +1,10 @@
 //! The headless server's command line: `starball-server` serves, `starball-server simulate` plays without network.
 
 use std::io::IsTerminal;
-use std::path::Path;
 use std::process::ExitCode;
-use std::sync::Arc;
 
 use clap::{Args, Parser, Subcommand};
-use shared::table::{SHIPPED, Table};
-use starball_server::{Config, simulate};
+use starball_server::{Config, load_table, simulate};
 use tokio::net::TcpListener;
 use tracing_subscriber::EnvFilter;
 
@@ -139,19 +136,4 @@ fn shutdown_signal() -> std::io::Result<impl Future<Output = ()>> {
             std::future::pending::<()>().await;
         }
     })
-}
-
-/// A shipped table by name, or one from a file.
-fn load_table(name: &str) -> Result<Arc<Table>, String> {
-    let table = match Table::shipped(name) {
-        Some(shipped) => shipped,
-        None => {
-            let source = std::fs::read_to_string(Path::new(name)).map_err(|error| {
-                let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
-                format!("{name:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
-            })?;
-            Table::parse(name, &source)
-        }
-    };
-    table.map(Arc::new).map_err(|error| error.to_string())
 }

@@ -1,0 +1,134 @@
+//! A session against a real server on this machine, without a window.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use macroquad::input::KeyCode;
+use shared::game::Phase;
+use shared::protocol::{Hello, Role};
+use shared::table::Table;
+
+use super::*;
+use crate::embedded::Embedded;
+use crate::net::Incoming;
+
+/// A client without a window.
+struct Client {
+    epoch: Instant,
+    connection: Connection,
+    session: Session,
+    controls: Controls,
+}
+
+impl Client {
+    fn join(embedded: &Embedded, role: Role) -> Self {
+        let epoch = Instant::now();
+        let hello = Hello { name: "test".to_owned(), role };
+        let mut connection = Connection::open(embedded.address().to_string(), hello, epoch).unwrap();
+        loop {
+            match connection.poll() {
+                Some(Incoming::Welcome(welcome)) => {
+                    let session = Session::new(&welcome).unwrap();
+                    return Self { epoch, connection, session, controls: Controls::default() };
+                }
+                Some(other) => panic!("{other:?}"),
+                None => std::thread::sleep(Duration::from_millis(1)),
+            }
+            assert!(epoch.elapsed() < Duration::from_secs(5));
+        }
+    }
+
+    /// Frames, until `done` or ten seconds have passed; `false` if they have.
+    fn run(&mut self, mut done: impl FnMut(&Session) -> bool) -> bool {
+        let end = self.epoch.elapsed() + Duration::from_secs(10);
+        while self.epoch.elapsed() < end {
+            while let Some(incoming) = self.connection.poll() {
+                let Incoming::Message { at, message } = incoming else { panic!("{incoming:?}") };
+                self.session.hear(at, message).unwrap();
+            }
+            let now = self.epoch.elapsed().as_secs_f64();
+            self.session.advance(now, &mut self.controls, &self.connection);
+            if done(&self.session) {
+                return true;
+            }
+            std::thread::sleep(Duration::from_millis(16));
+        }
+        false
+    }
+
+    fn run_for(&mut self, seconds: f64) {
+        let end = self.epoch.elapsed().as_secs_f64() + seconds;
+        let epoch = self.epoch;
+        assert!(self.run(|_| epoch.elapsed().as_secs_f64() >= end));
+    }
+}
+
+fn embedded() -> Embedded {
+    Embedded::start(Arc::new(Table::shipped("classic").unwrap().unwrap())).unwrap()
+}
+
+/// Whether what is to be seen is a game in which a ball is in play.
+fn has_ball(session: &Session) -> bool {
+    session.moment().is_some_and(|moment| !moment.balls.is_empty())
+}
+
+#[test]
+fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
+    let embedded = embedded();
+    let mut client = Client::join(&embedded, Role::Play);
+    assert!(client.run(|session| session.seat() == Some(0) && has_ball(session)), "no ball was served");
+    client.run_for(0.3);
+
+    // A key's frame already shows the flipper on its way.
+    let swing = |session: &Session| session.moment().map_or(0.0, |moment| moment.flippers[0]);
+    assert_eq!(swing(&client.session), 0.0);
+    client.controls.key_down(KeyCode::LeftShift);
+    std::thread::sleep(Duration::from_millis(16));
+    client.run(|_| true);
+    assert!(swing(&client.session) > 0.0, "the flipper waited for the server");
+    client.run_for(0.2);
+    client.controls.key_up(KeyCode::LeftShift);
+
+    client.controls.key_down(KeyCode::Space);
+    client.run_for(1.1);
+    client.controls.key_up(KeyCode::Space);
+    client.run_for(1.5);
+    let flies = client.session.moment().is_some_and(|m| m.balls.iter().any(|(position, _)| position.y > 0.3));
+    assert!(flies, "the plunger launched nothing");
+    let counts = client.session.counts();
+    // A busy machine may deliver an input late; it must stay the exception.
+    assert!(counts.right > 50 && counts.wrong <= 3, "{counts:?}");
+
+    // Who leaves watches, and may ask again only once the server has said so.
+    assert!(client.session.leave(&client.connection));
+    assert!(!client.session.leave(&client.connection));
+    assert!(client.run(|session| !session.is_leaving));
+    client.session.play(&client.connection);
+    assert!(client.run(|session| session.seat() == Some(0)));
+}
+
+#[test]
+fn a_spectator_sees_the_bot() {
+    let embedded = embedded();
+    let mut client = Client::join(&embedded, Role::Watch);
+    assert!(client.run(|session| has_ball(session) && session.snapshots.newest().is_some()), "the bot did not play");
+    let moment = client.session.moment().unwrap();
+    assert!(matches!(moment.game.phase(), Phase::Play { .. }));
+    assert_eq!(client.session.roster().seats[0].as_deref(), Some("BOT"));
+    assert_eq!((client.session.seat(), client.session.roster().spectators), (None, 1));
+    assert!(!client.session.leave(&client.connection), "there is nothing to leave");
+}
+
+#[test]
+fn a_strange_welcome_is_refused() {
+    let table = Table::shipped("classic").unwrap().unwrap();
+    let welcome =
+        Welcome { client: 1, physics: PHYSICS_VERSION, table_digest: table.digest, table: table.source.clone() };
+    assert!(Session::new(&welcome).is_ok());
+    let other = Welcome { physics: PHYSICS_VERSION + 1, ..welcome.clone() };
+    assert!(matches!(Session::new(&other), Err(SessionError::Physics { .. })));
+    let other = Welcome { table_digest: 5, ..welcome.clone() };
+    assert!(matches!(Session::new(&other), Err(SessionError::Digest)));
+    let other = Welcome { table: "(".to_owned(), ..welcome };
+    assert!(matches!(Session::new(&other), Err(SessionError::Table(_))));
+}
