@@ -5,6 +5,8 @@ mod bot;
 mod events;
 mod input;
 mod state;
+#[cfg(test)]
+mod tests;
 
 use std::sync::Arc;
 

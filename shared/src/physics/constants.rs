@@ -42,5 +42,9 @@ pub const MOVER_HALVINGS: u32 = 40;
 /// impacts in finite time (a ball in a V) end here if the table's rest speed has not ended them before.
 pub const MOST_IMPACTS_PER_TICK: u32 = 200;
 
+/// Table heights that a ball may fly within one tick in a state that is restored; a real one flies 0.02. Larger: a state
+/// from the network can keep a step busy for seconds.
+pub const MOST_HEIGHTS_PER_TICK: f64 = 100.0;
+
 /// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
 pub const FLIPPER_STOP_SPEED: f64 = 1.0;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ball::Support;
-use super::constants::{ROLLING_SHARE, SLIP_SHARE, SPHERE_INERTIA};
+use super::constants::{SLIP_SHARE, SPHERE_INERTIA};
 use super::scene::{Collider, Material, Scene};
 use super::shapes::{Shape, Side};
 use crate::math::tangent;
@@ -64,6 +64,7 @@ struct Touch {
     /// Away from the centre of curvature when positive: 1 / radius of the path that the ball's centre would follow.
     curvature: f64,
     friction: f64,
+    share: f64,
     round: bool,
 }
 
@@ -77,7 +78,14 @@ impl Touch {
                 (if arc.side == Side::Outside { 1.0 / path } else { -1.0 / path }, true)
             }
         };
-        Self { collider, normal: shape.normal_at(position), curvature, friction: material.friction, round }
+        Self {
+            collider,
+            normal: shape.normal_at(position),
+            curvature,
+            friction: material.friction,
+            share: material.rolling_share(),
+            round,
+        }
     }
 
     /// Acceleration with which a ball that moves along the surface is pressed against it; not positive: it lifts off.
@@ -90,8 +98,7 @@ impl Touch {
     fn acceleration(&self, gravity: DVec2, velocity: DVec2) -> DVec2 {
         let along = tangent(self.normal);
         let speed = velocity.dot(along);
-        let share = if self.friction > 0.0 { ROLLING_SHARE } else { 1.0 };
-        along * (gravity.dot(along) * share) - self.normal * (self.curvature * speed * speed)
+        along * (gravity.dot(along) * self.share) - self.normal * (self.curvature * speed * speed)
     }
 
     /// Whether two surfaces meet smoothly here: the same normal, but for a thousandth of a radian.
@@ -157,12 +164,21 @@ pub fn settle(
         }
     }
     match (first, second) {
-        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= 4.0 * scene.rest_speed => Settled {
-            velocity: DVec2::ZERO,
-            acceleration: DVec2::ZERO,
-            spin: 0.0,
-            support: Support::Wedge(first.collider, second.collider),
-        },
+        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= 4.0 * scene.rest_speed => {
+            let still = Settled {
+                velocity: DVec2::ZERO,
+                acceleration: DVec2::ZERO,
+                spin: 0.0,
+                support: Support::Wedge(first.collider, second.collider),
+            };
+            // Where a slope grows steeper, a ball that rolled up stops for a moment only: it rolls down the lower part.
+            [(first, second), (second, first)]
+                .into_iter()
+                .filter(|(touch, _)| touch.press(scene.gravity, DVec2::ZERO) > 0.0)
+                .map(|(touch, other)| (touch, other, touch.acceleration(scene.gravity, DVec2::ZERO)))
+                .find(|(_, other, acceleration)| clears(other, DVec2::ZERO, *acceleration, scene.rest_speed))
+                .map_or(still, |(touch, _, acceleration)| Settled { acceleration, support: touch.support(), ..still })
+        }
         _ => Settled { velocity, ..free },
     }
 }

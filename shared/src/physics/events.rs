@@ -6,13 +6,14 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::MOST_IMPACTS_PER_TICK;
-use super::contact::{Surface, respond, settle};
+use super::contact::{Response, Surface, respond, settle};
 use super::flipper::FlipperRest;
 use super::motion::Next;
 use super::movers::{BallInTick, first_impact};
-use super::scene::Role;
+use super::scene::{Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
+use crate::math::tangent;
 
 /// One thing that happens within a tick.
 #[derive(Debug, Clone, Copy)]
@@ -82,6 +83,9 @@ impl World {
     fn next_mover(&self, ball: usize, clock: f64, limit: f64) -> Option<(f64, Happening)> {
         let dt = self.scene.tick_seconds;
         let subject = &self.state.balls[ball];
+        if subject.support == Support::Stalled {
+            return None;
+        }
         let elapsed = Instant::start_of(self.state.tick).since(subject.flight.start, dt);
         let in_tick = BallInTick { flight: &subject.flight, elapsed, radius: self.scene.ball_radius };
         let mut limit = limit;
@@ -122,7 +126,7 @@ impl World {
             return (clock < limit).then_some(clock);
         }
         let roots = crate::math::roots::quadratic([motion.pull, motion.speed, 0.5 * motion.acceleration]);
-        roots.as_slice().iter().map(|t| motion.from + t).find(|&offset| offset > clock && offset < limit)
+        roots.as_slice().iter().map(|t| motion.from + t).find(|&offset| offset >= clock && offset < limit)
     }
 
     /// A ball's event among the static shapes.
@@ -137,6 +141,7 @@ impl World {
         match next {
             Next::ClearUntil(_) => {}
             Next::LeavesSupport(_) => {
+                self.refresh_spin(ball, position, flight.velocity_at(t));
                 self.start_flight(ball, offset, position, flight.velocity_at(t), None, None);
             }
             Next::Meets(_, index) => {
@@ -181,6 +186,7 @@ impl World {
         if speed > scene.rest_speed {
             self.emit(ball, offset, position, kind);
         }
+        self.refresh_spin(ball, position, velocity);
         let surface = Surface { normal, velocity: DVec2::ZERO, material: collider.material, inverse_mass: 0.0, kick };
         let after = respond(velocity, self.state.balls[ball].spin, scene.ball_radius, scene.ball_mass, &surface);
         self.state.balls[ball].spin = after.spin;
@@ -191,7 +197,25 @@ impl World {
         self.start_flight(ball, offset, position, after.velocity, Some(index), before);
         if let (Role::Target { index: target, .. }, EventKind::Felled { .. }) = (collider.role, kind) {
             self.state.targets[usize::from(target)] = TargetState::Down;
-            self.forget_nexts(Instant { tick: self.state.tick, offset });
+            self.target_fell(target, offset);
+        }
+    }
+
+    /// A target is gone, and with it what balls lay on.
+    fn target_fell(&mut self, target: u16, offset: f64) {
+        self.forget_nexts(Instant { tick: self.state.tick, offset });
+        let gone = Presence::TargetUp(target);
+        for ball in 0..self.state.balls.len() {
+            let is_gone = |i: u16| self.scene.colliders[usize::from(i)].presence == gone;
+            let falls = match self.state.balls[ball].support {
+                Support::Line(i) | Support::Arc(i) => is_gone(i),
+                Support::Wedge(i, j) => is_gone(i) || is_gone(j),
+                _ => false,
+            };
+            if falls {
+                let (position, velocity) = self.ball_at(ball, offset);
+                self.start_flight(ball, offset, position, velocity, None, None);
+            }
         }
     }
 
@@ -208,6 +232,10 @@ impl World {
     fn meet_flipper(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
         let Some(flipper) = self.moving_flipper(index) else { return };
         let (position, velocity) = self.ball_at(ball, offset);
+        if self.impacts[ball] >= MOST_IMPACTS_PER_TICK {
+            self.stall(ball, offset, position);
+            return;
+        }
         let surface = super::movers::Mover::surface(&flipper, offset, position, normal, self.scene.ball_radius);
         let contact = position - normal * self.scene.ball_radius;
         let lever = flipper.lever(contact, normal);
@@ -226,6 +254,10 @@ impl World {
     fn meet_plunger(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
         let Some(plunger) = self.moving_plunger(index) else { return };
         let (position, velocity) = self.ball_at(ball, offset);
+        if self.impacts[ball] >= MOST_IMPACTS_PER_TICK {
+            self.stall(ball, offset, position);
+            return;
+        }
         let surface = super::movers::Mover::surface(&plunger, offset, position, normal, self.scene.ball_radius);
         let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
         let after = self.push_by(ball, offset, position, velocity, &surface, element);
@@ -245,7 +277,7 @@ impl World {
         velocity: DVec2,
         surface: &Surface,
         element: u16,
-    ) -> super::contact::Response {
+    ) -> Response {
         self.impacts[ball] += 1;
         let speed = (surface.velocity - velocity).dot(surface.normal);
         // Too many impacts within one tick: the rest of them takes all of the bounce.
@@ -256,6 +288,7 @@ impl World {
         if speed > self.scene.rest_speed {
             self.emit(ball, offset, position, EventKind::Touched { element, speed });
         }
+        self.refresh_spin(ball, position, velocity);
         let subject = &mut self.state.balls[ball];
         let after = respond(velocity, subject.spin, self.scene.ball_radius, self.scene.ball_mass, &surface);
         subject.spin = after.spin;
@@ -324,6 +357,17 @@ impl World {
         subject.support = settled.support;
         subject.past = None;
         self.next[ball] = None;
+    }
+
+    /// The spin kept with a flight is that of its start; a ball that has since rolled along a surface has spun up.
+    pub(super) fn refresh_spin(&mut self, ball: usize, position: DVec2, velocity: DVec2) {
+        if let Support::Line(index) | Support::Arc(index) = self.state.balls[ball].support {
+            let collider = &self.scene.colliders[usize::from(index)];
+            if collider.material.friction > 0.0 {
+                let along = tangent(collider.shape.normal_at(position));
+                self.state.balls[ball].spin = -velocity.dot(along) / self.scene.ball_radius;
+            }
+        }
     }
 
     fn take_out(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {

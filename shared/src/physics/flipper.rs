@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::constants::FLIPPER_STOP_SPEED;
 use super::scene::Material;
 use super::shapes::{Arc, Segment, Shape, Side};
-use crate::math::direction;
+use crate::math::{direction, tangent};
 
 /// What is fixed about a flipper.
 #[derive(Debug, Clone, PartialEq)]
@@ -103,6 +103,17 @@ impl FlipperMotion {
     }
 }
 
+/// How a flipper carries a ball that lies on it.
+#[derive(Debug, Clone, Copy)]
+pub struct Carried {
+    /// Unit normal towards the ball.
+    pub normal: DVec2,
+    /// Lever arm of a push along the normal, in the sense of the swing, m.
+    pub lever: f64,
+    /// Of the ball along the normal at a constant speed of the swing, m/s^2: centripetal and Coriolis.
+    pub acceleration: f64,
+}
+
 /// The surface of a flipper nearest to a point.
 #[derive(Debug, Clone, Copy)]
 pub struct Nearest {
@@ -110,6 +121,8 @@ pub struct Nearest {
     pub distance: f64,
     /// Unit normal towards the point.
     pub normal: DVec2,
+    /// Of the surface there, m; infinite where it is flat.
+    pub radius: f64,
 }
 
 impl FlipperSpec {
@@ -129,14 +142,20 @@ impl FlipperSpec {
         self.length + self.tip_radius + self.base_radius
     }
 
-    /// Torque of coil or spring in the direction of the swing, averaged over a tick of `dt` seconds, N m.
-    pub fn drive(&self, state: &FlipperState, dt: f64) -> f64 {
+    /// Torque of coil or spring in the direction of the swing, averaged over a tick of `dt` seconds in which the swing
+    /// becomes `until`, N m.
+    pub fn drive(&self, state: &FlipperState, until: f64, dt: f64) -> f64 {
         if !state.pressed {
             return -self.return_share * self.torque;
         }
         let strength = if self.ramp > 0.0 { ((state.coil_time + 0.5 * dt) / self.ramp).min(1.0) } else { 1.0 };
-        let holding = state.swing >= self.stroke - self.hold_within;
-        self.torque * strength * if holding { self.hold } else { 1.0 }
+        let edge = self.stroke - self.hold_within;
+        let held = match (state.swing >= edge, until > edge) {
+            (true, _) => 1.0,
+            (false, true) => (until - edge) / (until - state.swing),
+            (false, false) => 0.0,
+        };
+        self.torque * strength * (1.0 - held * (1.0 - self.hold))
     }
 
     /// The surface nearest to `point` when the flipper points along `axis`: two circles and their common tangents.
@@ -155,7 +174,7 @@ impl FlipperSpec {
             round(offset - axis * self.length, self.tip_radius)
         } else {
             let normal = axis * lean + axis.perp() * (upright * side);
-            Nearest { distance: offset.dot(normal) - self.base_radius, normal }
+            Nearest { distance: offset.dot(normal) - self.base_radius, normal, radius: f64::INFINITY }
         }
     }
 
@@ -171,6 +190,21 @@ impl FlipperSpec {
         };
         let circle = |center, radius| Shape::Arc(Arc { center, radius, side: Side::Outside, span: None });
         [face(1.0), face(-1.0), circle(tip, self.tip_radius), circle(self.pivot, self.base_radius)]
+    }
+
+    /// How a ball of `radius` with its centre there is carried along.
+    pub fn carried(&self, swing: f64, speed: f64, center: DVec2, velocity: DVec2, radius: f64) -> Carried {
+        let Nearest { normal, radius: curved, .. } = self.nearest(self.direction(swing), center);
+        let (turn, arm) = (self.turn_rate(speed), center - self.pivot);
+        let along = tangent(normal);
+        // Of the ball's centre, seen from the flipper.
+        let drift = (velocity - arm.perp() * turn).dot(along);
+        let acceleration = (along.perp() * (2.0 * turn * drift) - arm * (turn * turn)).dot(normal);
+        Carried {
+            normal,
+            lever: self.turn_rate(arm.perp_dot(normal)),
+            acceleration: acceleration - drift * drift / (curved + radius),
+        }
     }
 
     /// Velocity of the point of the flipper at `point`.
@@ -192,5 +226,6 @@ impl FlipperSpec {
 
 fn round(offset: DVec2, radius: f64) -> Nearest {
     let distance = offset.length();
-    Nearest { distance: distance - radius, normal: if distance > 0.0 { offset / distance } else { DVec2::Y } }
+    let normal = if distance > 0.0 { offset / distance } else { DVec2::Y };
+    Nearest { distance: distance - radius, normal, radius }
 }

@@ -8,7 +8,8 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::ROLLING_SHARE;
-use super::movers::Mover;
+use super::flipper::Nearest;
+use super::movers::{Mover, MovingFlipper};
 use super::scene::Presence;
 use super::shapes::Shape;
 use super::world::World;
@@ -51,7 +52,7 @@ impl World {
         let along = tangent(outward);
         let place = arc.center + outward * reach;
         let piece = &self.state.balls[ball].flight;
-        let share = if collider.material.friction > 0.0 { ROLLING_SHARE } else { 1.0 };
+        let share = collider.material.rolling_share();
         let fallen = self.scene.gravity.dot(place - piece.position);
         let square = piece.velocity.length_squared() + 2.0 * share * fallen;
         let estimate = velocity.dot(along);
@@ -63,7 +64,7 @@ impl World {
     fn follow_mover(&mut self, ball: usize, support: Support, offset: f64) {
         let radius = self.scene.ball_radius;
         let (position, velocity) = self.ball_at(ball, offset);
-        let Some((distance, normal)) = self.mover_nearest(support, offset, position) else {
+        let Some(Nearest { distance, normal, .. }) = self.mover_nearest(support, offset, position) else {
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
         };
@@ -79,13 +80,23 @@ impl World {
         let leaving = (velocity - surface).dot(normal);
         let along = tangent(normal);
         let slide = (velocity - surface).dot(along);
-        let pull = self.mover_acceleration(support, offset, position, normal, slide);
+        let pull = self.mover_pull(support, offset, position, velocity);
         // Pressed on by less than nothing: it flies.
         if leaving > self.scene.rest_speed || pull <= self.scene.gravity.dot(normal) {
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
         }
         let velocity = velocity - normal * leaving;
+        // As it is in the middle of what is left of the tick, if it is still pressed there: an error of third order in
+        // the tick's length.
+        let half = 0.5 * (self.scene.tick_seconds - offset);
+        let middle = position + velocity * half;
+        let (normal, pull) = self
+            .mover_nearest(support, offset + half, middle)
+            .map(|nearest| (nearest.normal, self.mover_pull(support, offset + half, middle, velocity)))
+            .filter(|(normal, pull)| *pull > self.scene.gravity.dot(*normal))
+            .unwrap_or((normal, pull));
+        let along = tangent(normal);
         let acceleration = normal * pull + along * (self.scene.gravity.dot(along) * ROLLING_SHARE);
         let subject = &mut self.state.balls[ball];
         let start = Instant { tick: self.state.tick, offset };
@@ -95,14 +106,14 @@ impl World {
         self.next[ball] = None;
     }
 
-    /// Distance and normal of the moving surface that a ball lies on; `None` once it moves no more.
-    fn mover_nearest(&self, support: Support, offset: f64, point: DVec2) -> Option<(f64, DVec2)> {
+    /// The moving surface that a ball lies on; `None` once it moves no more.
+    fn mover_nearest(&self, support: Support, offset: f64, point: DVec2) -> Option<Nearest> {
         let nearest = match support {
             Support::Flipper(i) => self.moving_flipper(usize::from(i))?.nearest(offset, point),
             Support::Plunger(i) => self.moving_plunger(usize::from(i))?.nearest(offset, point),
             _ => return None,
         };
-        nearest.distance.is_finite().then_some((nearest.distance, nearest.normal))
+        nearest.distance.is_finite().then_some(nearest)
     }
 
     /// Velocity of the moving surface's point at `contact`.
@@ -115,17 +126,14 @@ impl World {
         .unwrap_or(DVec2::ZERO)
     }
 
-    /// Acceleration along `normal` of a ball at `center` that slides along the surface with `slide` m/s: the surface's
-    /// own, the centripetal and the Coriolis term.
-    fn mover_acceleration(&self, support: Support, offset: f64, center: DVec2, normal: DVec2, slide: f64) -> f64 {
+    /// Acceleration along the surface's normal of a ball that is carried by it.
+    fn mover_pull(&self, support: Support, offset: f64, center: DVec2, velocity: DVec2) -> f64 {
         match support {
             Support::Flipper(i) => {
-                let Some(flipper) = self.moving_flipper(usize::from(i)) else { return 0.0 };
-                let turn = flipper.spec.turn_rate(flipper.motion.speed_at(offset));
-                let change = flipper.spec.turn_rate(flipper.motion.acceleration);
-                let arm = center - flipper.spec.pivot;
-                let relative = tangent(normal) * slide;
-                (arm.perp() * change - arm * (turn * turn) + relative.perp() * (2.0 * turn)).dot(normal)
+                let Some(MovingFlipper { spec, motion }) = self.moving_flipper(usize::from(i)) else { return 0.0 };
+                let (swing, speed) = (motion.swing_at(offset), motion.speed_at(offset));
+                let carried = spec.carried(swing, speed, center, velocity, self.scene.ball_radius);
+                carried.acceleration + carried.lever * motion.acceleration
             }
             Support::Plunger(i) => {
                 self.moving_plunger(usize::from(i)).map_or(0.0, |plunger| -plunger.motion.acceleration)
@@ -173,6 +181,9 @@ impl World {
                 other => other == support,
             };
             let (position, velocity) = self.ball_at(ball, offset);
+            if lies_on || is_near(position) {
+                self.refresh_spin(ball, position, velocity);
+            }
             if lies_on {
                 self.start_flight(ball, offset, position, velocity, None, None);
                 if moves {

@@ -13,6 +13,8 @@ pub mod plunger;
 pub mod scene;
 pub mod shapes;
 mod state;
+#[cfg(test)]
+mod tests;
 mod world;
 
 pub use constants::PHYSICS_VERSION;

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ball::Flight;
-use super::constants::{MOVER_HALVINGS, MOVER_PARTS};
+use super::constants::{GRAZE, MOVER_HALVINGS, MOVER_PARTS};
 use super::contact::Surface;
 use super::flipper::{FlipperMotion, FlipperSpec, Nearest};
 use super::plunger::{PlungerMotion, PlungerSpec};
@@ -69,7 +69,8 @@ impl MovingFlipper<'_> {
             let (rate, half_pull) = (sign * motion.speed, sign * 0.5 * motion.acceleration);
             for &t in quadratic([gap, rate, half_pull]).as_slice() {
                 let offset = motion.from + t;
-                if rate + 2.0 * half_pull * t < 0.0 && offset > from && offset < limit {
+                // At `from` itself, too: another flipper may have met its stop at the same instant.
+                if rate + 2.0 * half_pull * t < 0.0 && offset >= from && offset < limit {
                     limit = offset;
                     first = Some((offset, upper));
                 }
@@ -117,7 +118,8 @@ pub(super) struct MovingPlunger<'a> {
 
 impl Mover for MovingPlunger<'_> {
     fn nearest(&self, offset: f64, point: DVec2) -> Nearest {
-        Nearest { distance: self.spec.distance(self.motion.pull_at(offset), point), normal: self.spec.normal }
+        let distance = self.spec.distance(self.motion.pull_at(offset), point);
+        Nearest { distance, normal: self.spec.normal, radius: f64::INFINITY }
     }
 
     fn velocity(&self, offset: f64, _point: DVec2) -> DVec2 {
@@ -156,8 +158,10 @@ pub(super) fn first_impact(
         let center = ball.position(offset);
         let normal = mover.nearest(offset, center).normal;
         let contact = center - normal * ball.radius;
-        let speed = (ball.velocity(offset) - mover.velocity(offset, contact)).dot(normal);
-        (speed < 0.0).then_some(normal)
+        let (velocity, surface) = (ball.velocity(offset), mover.velocity(offset, contact));
+        let speed = (velocity - surface).dot(normal);
+        // After an impact that took all of the bounce, a rounding is left; to meet that again would never end.
+        (speed < -GRAZE * (velocity.length() + surface.length())).then_some(normal)
     };
     let least_step = tick_seconds / f64::from(MOVER_PARTS);
     let fastest =

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::constants::ROLLING_SHARE;
 use super::flipper::FlipperSpec;
 use super::plunger::PlungerSpec;
 use super::shapes::{Bounds, Shape};
@@ -18,6 +19,11 @@ pub struct Material {
 }
 
 impl Material {
+    /// Share of a pull along the surface that accelerates a ball on it: some goes into spin where there is friction.
+    pub fn rolling_share(&self) -> f64 {
+        if self.friction > 0.0 { ROLLING_SHARE } else { 1.0 }
+    }
+
     /// Share of the normal speed returned at a normal speed of approach of `speed` m/s.
     pub fn restitution_at(&self, speed: f64) -> f64 {
         self.restitution / (1.0 + self.falloff * speed)

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ball::{Ball, Support};
+use super::constants::MOST_HEIGHTS_PER_TICK;
 use super::flipper::FlipperState;
 use super::plunger::PlungerState;
 use super::scene::{Collider, Presence, Scene};
@@ -138,7 +139,11 @@ impl WorldState {
         let start = ball.flight.start;
         let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
         let past_is_a_number = ball.past.is_none_or(|(t, _)| !t.is_nan());
-        if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number) {
+        // A ball that crosses the table many times within a tick is no ball: to search its path would take for ever.
+        let (dt, farthest) = (scene.tick_seconds, MOST_HEIGHTS_PER_TICK * scene.size.y);
+        let is_slow = ball.flight.velocity.abs().max_element() * dt <= farthest
+            && ball.flight.acceleration.abs().max_element() * dt * dt <= farthest;
+        if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number && is_slow) {
             return Err(number);
         }
         let collider = |i: u16| scene.colliders.get(usize::from(i));

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
-use super::flipper::{FlipperMotion, FlipperRest};
+use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::motion::{Next, next_event};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
@@ -203,16 +203,8 @@ impl World {
                 self.flipper_changed(index, 0.0, true);
             }
             let flipper = self.state.flippers[index];
-            self.flipper_motions[index] = (flipper.rest == FlipperRest::Moving).then(|| {
-                let spec = &self.scene.flippers[index];
-                let (inertia, weight) = self.flipper_load(index);
-                FlipperMotion {
-                    from: 0.0,
-                    swing: flipper.swing,
-                    speed: flipper.speed,
-                    acceleration: (spec.drive(&flipper, dt) + weight) / (spec.inertia + inertia),
-                }
-            });
+            self.flipper_motions[index] =
+                (flipper.rest == FlipperRest::Moving).then(|| self.flipper_motion(index, flipper));
         }
         for index in 0..self.state.plungers.len() {
             let plunger = self.state.plungers[index];
@@ -228,22 +220,36 @@ impl World {
         }
     }
 
-    /// Inertia and torque that the balls lying on a flipper add to it.
-    fn flipper_load(&self, index: usize) -> (f64, f64) {
+    /// How a flipper moves in this tick: with the acceleration that it has in the middle of it.
+    fn flipper_motion(&self, index: usize, flipper: FlipperState) -> FlipperMotion {
+        let dt = self.scene.tick_seconds;
         let spec = &self.scene.flippers[index];
-        let axis = spec.direction(self.state.flippers[index].swing);
-        let (mut inertia, mut weight) = (0.0, 0.0);
-        for ball in &self.state.balls {
-            if ball.support == Support::Flipper(index as u16) {
-                let (position, _) = ball.at(Instant::start_of(self.state.tick), self.scene.tick_seconds);
-                let normal = spec.nearest(axis, position).normal;
-                let contact = position - normal * self.scene.ball_radius;
-                let lever = spec.turn_rate((contact - spec.pivot).perp_dot(normal));
-                inertia += self.scene.ball_mass * lever * lever;
-                weight += self.scene.ball_mass * lever * self.scene.gravity.dot(normal);
+        let FlipperState { swing, speed, .. } = flipper;
+        let acceleration = self.flipper_acceleration(index, &flipper, spec.drive(&flipper, swing, dt), 0.0);
+        let guess = FlipperMotion { from: 0.0, swing, speed, acceleration };
+        let half = 0.5 * dt;
+        let middle = FlipperState { swing: guess.swing_at(half), speed: guess.speed_at(half), ..flipper };
+        let drive = spec.drive(&flipper, guess.swing_at(dt), dt);
+        FlipperMotion { acceleration: self.flipper_acceleration(index, &middle, drive, half), ..guess }
+    }
+
+    /// What the torque of coil or spring and the balls lying on it make of a flipper, `later` seconds into the tick.
+    fn flipper_acceleration(&self, index: usize, flipper: &FlipperState, drive: f64, later: f64) -> f64 {
+        let scene = &self.scene;
+        let spec = &scene.flippers[index];
+        let (mut torque, mut inertia) = (drive, spec.inertia);
+        for ball in self.state.balls.iter().filter(|ball| ball.support == Support::Flipper(index as u16)) {
+            let (position, velocity) = ball.at(Instant::start_of(self.state.tick), scene.tick_seconds);
+            let center = position + velocity * later;
+            let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.ball_radius);
+            // What the flipper must push the ball with, beyond the change of its own turn.
+            let push = carried.acceleration - scene.gravity.dot(carried.normal);
+            if carried.lever * drive / spec.inertia + push > 0.0 {
+                torque -= scene.ball_mass * carried.lever * push;
+                inertia += scene.ball_mass * carried.lever * carried.lever;
             }
         }
-        (inertia, weight)
+        torque / inertia
     }
 
     /// Mass of the balls lying on a plunger.

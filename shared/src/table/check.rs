@@ -9,13 +9,30 @@ use ron::extensions::Extensions;
 
 use super::error::TableError;
 use super::format::{ElementFile, Point, TableFile};
-use super::locate::line_of;
+use super::locate::{Step, element_at, line_of};
 use super::{FORMAT_VERSION, MOST_TEXT, Table, rulebook, shapes};
 use crate::math::Digest;
 use crate::physics::{MOST_PARTS, PHYSICS_VERSION};
 
 /// Most elements of a table.
 const MOST_ELEMENTS: usize = 2000;
+
+/// Longest name or message, characters.
+const MOST_CHARACTERS: usize = 40;
+
+/// What an error is about.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Spot<'a> {
+    Table,
+    Ball,
+    Rules,
+    /// By its place among the rules.
+    Rule(usize),
+    Material(&'a str),
+    Group(&'a str),
+    /// By its place among the elements.
+    Element(u16),
+}
 
 /// A table on its way through the checks.
 pub(super) struct Context<'a> {
@@ -34,7 +51,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
     let file: TableFile = Options::default()
         .with_default_extension(extensions)
         .from_str(source)
-        .map_err(|error| whole(error.span.start.line, error.code.to_string()))?;
+        .map_err(|error| unreadable(name, source, &error))?;
     let context = Context { name, source, file: &file, indices: BTreeMap::new() };
     context.versions()?;
     context.table_numbers()?;
@@ -58,17 +75,64 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
     })
 }
 
+/// What the parser complains of, with the element and the field that it is about.
+fn unreadable(file: &str, source: &str, error: &ron::error::SpannedError) -> TableError {
+    use ron::Error as E;
+    let place = error.span.start;
+    let field = match &error.code {
+        E::NoSuchStructField { found, .. } => Some(found.clone()),
+        E::MissingStructField { field, .. } | E::DuplicateStructField { field, .. } => Some((*field).to_owned()),
+        _ => None,
+    };
+    TableError {
+        file: file.to_owned(),
+        line: place.line,
+        element: element_at(source, place.line, place.col),
+        field,
+        problem: error.code.to_string(),
+    }
+}
+
 /// A written point as a vector.
 pub(super) fn vector(point: Point) -> DVec2 {
     DVec2::new(point.0, point.1)
 }
 
 impl<'a> Context<'a> {
-    pub(super) fn error(&self, element: Option<&str>, field: Option<&str>, problem: String) -> TableError {
+    pub(super) fn error(&self, spot: Spot<'_>, field: Option<&str>, problem: String) -> TableError {
+        self.error_at(spot, field, None, problem)
+    }
+
+    /// An error about one item of a field that is a list.
+    pub(super) fn error_at(
+        &self,
+        spot: Spot<'_>,
+        field: Option<&str>,
+        item: Option<usize>,
+        problem: String,
+    ) -> TableError {
+        let spot_way: &[Step<'_>] = match spot {
+            Spot::Table => &[],
+            Spot::Ball => &[Step::Field("ball")],
+            Spot::Rules => &[Step::Field("rules")],
+            Spot::Rule(place) => &[Step::Field("rules"), Step::Field("on"), Step::Item(place)],
+            Spot::Material(name) => &[Step::Field("materials"), Step::Key(name)],
+            Spot::Group(name) => &[Step::Field("groups"), Step::Key(name)],
+            Spot::Element(place) => &[Step::Field("elements"), Step::Item(usize::from(place))],
+        };
+        let way: Vec<_> = spot_way.iter().copied().chain(field.map(Step::Field)).chain(item.map(Step::Item)).collect();
+        let element = match spot {
+            Spot::Table => None,
+            Spot::Ball => Some("ball".to_owned()),
+            Spot::Rules => Some("rules".to_owned()),
+            Spot::Rule(place) => Some(format!("rule {}", place + 1)),
+            Spot::Material(name) | Spot::Group(name) => Some(name.to_owned()),
+            Spot::Element(place) => Some(self.file.elements[usize::from(place)].name().to_owned()),
+        };
         TableError {
             file: self.name.to_owned(),
-            line: line_of(self.source, element, field),
-            element: element.map(str::to_owned),
+            line: line_of(self.source, &way),
+            element: element.filter(|name| !name.is_empty()),
             field: field.map(str::to_owned),
             problem,
         }
@@ -77,7 +141,7 @@ impl<'a> Context<'a> {
     /// Refuses NaN, infinities and what is out of range.
     pub(super) fn in_range(
         &self,
-        element: Option<&str>,
+        spot: Spot<'_>,
         field: &str,
         value: f64,
         low: f64,
@@ -88,19 +152,28 @@ impl<'a> Context<'a> {
             return Ok(());
         }
         let problem = format!("{value} is not within {low} to {high}; {example} would be right");
-        Err(self.error(element, Some(field), problem))
+        Err(self.error(spot, Some(field), problem))
     }
 
-    /// A point on the table, or at most a tenth of its size beside it.
-    pub(super) fn point(&self, element: &str, field: &str, point: Point) -> Result<DVec2, TableError> {
+    /// A point on the table, or at most a tenth of its size beside it. `item`: its place in a field that is a list.
+    pub(super) fn point(
+        &self,
+        spot: Spot<'_>,
+        field: &str,
+        item: Option<usize>,
+        point: Point,
+    ) -> Result<DVec2, TableError> {
         let size = vector(self.file.size);
         let margin = 0.1 * if size.x > size.y { size.x } else { size.y };
         let fits = |value: f64, size: f64| value >= -margin && value <= size + margin;
         if fits(point.0, size.x) && fits(point.1, size.y) {
             return Ok(vector(point));
         }
-        let problem = format!("{point:?} is not on the table, which is {} m wide and {} m high", size.x, size.y);
-        Err(self.error(Some(element), Some(field), problem))
+        let problem = format!(
+            "{point:?} is not on the table; (x, y) within (0, 0) to {:?} metres would be right",
+            self.file.size
+        );
+        Err(self.error_at(spot, Some(field), item, problem))
     }
 
     /// The place of an element in the file.
@@ -117,7 +190,7 @@ impl<'a> Context<'a> {
         for (field, found, known) in versions {
             if found != known {
                 let problem = format!("version {found} is not known here; this program knows version {known}");
-                return Err(self.error(None, Some(field), problem));
+                return Err(self.error(Spot::Table, Some(field), problem));
             }
         }
         Ok(())
@@ -125,32 +198,33 @@ impl<'a> Context<'a> {
 
     fn table_numbers(&self) -> Result<(), TableError> {
         let file = self.file;
-        self.printable(None, "name", &file.name)?;
+        self.printable(Spot::Table, Some("name"), &file.name)?;
         for length in [file.size.0, file.size.1] {
-            self.in_range(None, "size", length, 1e-3, 1e3, "(0.514, 1.067) metres")?;
+            self.in_range(Spot::Table, "size", length, 1e-3, 1e3, "(0.514, 1.067) metres")?;
         }
-        self.in_range(None, "tick_hz", f64::from(file.tick_hz), 50.0, 100_000.0, "1000")?;
+        self.in_range(Spot::Table, "tick_hz", f64::from(file.tick_hz), 50.0, 100_000.0, "1000")?;
         for pull in [file.gravity.0, file.gravity.1] {
-            self.in_range(None, "gravity", pull, -1e4, 1e4, "(0.0, -0.793) m/s^2")?;
+            self.in_range(Spot::Table, "gravity", pull, -1e4, 1e4, "(0.0, -0.793) m/s^2")?;
         }
-        self.in_range(None, "rest_speed", file.rest_speed, 1e-6, 1.0, "0.02 m/s")?;
+        self.in_range(Spot::Table, "rest_speed", file.rest_speed, 1e-6, 1.0, "0.02 m/s")?;
         let narrow = if file.size.0 < file.size.1 { file.size.0 } else { file.size.1 };
-        self.in_range(None, "radius", file.ball.radius, 1e-5, 0.5 * narrow, "0.0135 m")?;
-        self.in_range(None, "mass", file.ball.mass, 1e-6, 1e6, "0.08 kg")?;
+        self.in_range(Spot::Ball, "radius", file.ball.radius, 1e-5, 0.5 * narrow, "0.0135 m")?;
+        self.in_range(Spot::Ball, "mass", file.ball.mass, 1e-6, 1e6, "0.08 kg")?;
         let start = vector(file.ball.start);
         if !(start.cmpge(DVec2::ZERO).all() && start.cmple(vector(file.size)).all()) {
             let problem = format!("{:?} is not on the table; a ball is served there", file.ball.start);
-            return Err(self.error(None, Some("start"), problem));
+            return Err(self.error(Spot::Ball, Some("start"), problem));
         }
         Ok(())
     }
 
     fn materials(&self) -> Result<(), TableError> {
         for (name, material) in &self.file.materials {
-            let name = Some(name.as_str());
-            self.in_range(name, "restitution", material.restitution, 0.0, 1.0, "0.8")?;
-            self.in_range(name, "falloff", material.falloff, 0.0, 1e3, "0.3 s/m")?;
-            self.in_range(name, "friction", material.friction, 0.0, 10.0, "0.6")?;
+            let spot = Spot::Material(name);
+            self.printable(spot, None, name)?;
+            self.in_range(spot, "restitution", material.restitution, 0.0, 1.0, "0.8")?;
+            self.in_range(spot, "falloff", material.falloff, 0.0, 1e3, "0.3 s/m")?;
+            self.in_range(spot, "friction", material.friction, 0.0, 10.0, "0.6")?;
         }
         Ok(())
     }
@@ -159,13 +233,14 @@ impl<'a> Context<'a> {
         let elements = &self.file.elements;
         if elements.len() > MOST_ELEMENTS {
             let problem = format!("{} elements are more than {MOST_ELEMENTS}", elements.len());
-            return Err(self.error(None, Some("elements"), problem));
+            return Err(self.error(Spot::Table, Some("elements"), problem));
         }
         for (index, element) in (0..).zip(elements) {
             let name = element.name();
-            self.printable(Some(name), "name", name)?;
-            if self.indices.insert(name, index).is_some() {
-                return Err(self.error(Some(name), Some("name"), "two elements have this name".to_owned()));
+            self.printable(Spot::Element(index), Some("name"), name)?;
+            if let Some(first) = self.indices.insert(name, index) {
+                let problem = format!("element {} of the list has this name, too; names must differ", first + 1);
+                return Err(self.error(Spot::Element(index), Some("name"), problem));
             }
         }
         let count = |is_wanted: fn(&ElementFile) -> bool| elements.iter().filter(|element| is_wanted(element)).count();
@@ -178,43 +253,51 @@ impl<'a> Context<'a> {
         for (kind, found) in kinds {
             if found > MOST_PARTS {
                 let problem = format!("{found} elements of the kind {kind} are more than {MOST_PARTS}");
-                return Err(self.error(None, Some("elements"), problem));
+                return Err(self.error(Spot::Table, Some("elements"), problem));
             }
         }
         if count(|element| matches!(element, ElementFile::Drain(_))) == 0 {
             let problem = "there is no Drain, so that no ball would ever end".to_owned();
-            return Err(self.error(None, Some("elements"), problem));
+            return Err(self.error(Spot::Table, Some("elements"), problem));
         }
         Ok(self)
     }
 
     fn groups(&self) -> Result<(), TableError> {
         for (name, members) in &self.file.groups {
-            self.printable(None, "groups", name)?;
+            let spot = Spot::Group(name);
+            self.printable(spot, None, name)?;
             if self.index_of(name).is_some() {
-                let problem = format!("the group {name:?} has the name of an element");
-                return Err(self.error(None, Some("groups"), problem));
+                let problem = "a group has the name of an element; names must differ".to_owned();
+                return Err(self.error(spot, None, problem));
             }
             let mut seen = BTreeSet::new();
-            for member in members {
+            for (place, member) in members.iter().enumerate() {
                 if self.index_of(member).is_none() {
-                    let problem = format!("the group {name:?} names {member:?}, which is no element");
-                    return Err(self.error(None, Some("groups"), problem));
+                    let problem = format!("{member:?} is no element; a group has names of elements");
+                    return Err(self.error_at(spot, None, Some(place), problem));
                 }
                 if !seen.insert(member) {
-                    let problem = format!("the group {name:?} names {member:?} twice");
-                    return Err(self.error(None, Some("groups"), problem));
+                    let problem = format!("{member:?} is in the group twice; once would be right");
+                    return Err(self.error_at(spot, None, Some(place), problem));
                 }
             }
         }
         Ok(())
     }
 
-    fn printable(&self, element: Option<&str>, field: &str, text: &str) -> Result<(), TableError> {
-        if text.is_empty() || text.chars().count() > 40 || text.chars().any(char::is_control) {
-            let problem = format!("{text:?} is not 1 to 40 printable characters");
-            return Err(self.error(element, Some(field), problem));
-        }
-        Ok(())
+    /// Refuses text that does not fit a display, or would break a line of a log.
+    fn printable(&self, spot: Spot<'_>, field: Option<&str>, text: &str) -> Result<(), TableError> {
+        if is_printable(text) { Ok(()) } else { Err(self.error(spot, field, unprintable(text))) }
     }
+}
+
+/// Whether a name or message is one that can be shown.
+pub(super) fn is_printable(text: &str) -> bool {
+    !text.is_empty() && text.chars().count() <= MOST_CHARACTERS && !text.chars().any(char::is_control)
+}
+
+/// What is wrong with a text that cannot be shown.
+pub(super) fn unprintable(text: &str) -> String {
+    format!("{text:?} is not 1 to {MOST_CHARACTERS} printable characters")
 }

@@ -25,7 +25,8 @@ impl fmt::Display for TableError {
         }
         write!(f, ": ")?;
         if let Some(element) = &self.element {
-            write!(f, "\"{element}\": ")?;
+            // Quoted and escaped: a name that is wrong may hold anything.
+            write!(f, "{element:?}: ")?;
         }
         if let Some(field) = &self.field {
             write!(f, "field `{field}`: ")?;

@@ -9,6 +9,8 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::unique;
+
 /// A point or vector as written: `(x, y)` in metres, x right and y up the table.
 pub type Point = (f64, f64);
 
@@ -34,11 +36,12 @@ pub struct TableFile {
     /// The ball, and where one is served.
     pub ball: BallFile,
     /// Surfaces by name.
+    #[serde(deserialize_with = "unique::map")]
     pub materials: BTreeMap<String, MaterialFile>,
     /// Everything on the playfield.
     pub elements: Vec<ElementFile>,
     /// Named sets of elements that rules speak of as one.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "unique::map")]
     pub groups: BTreeMap<String, Vec<String>>,
     /// What happens when.
     pub rules: RulesFile,

@@ -7,6 +7,9 @@ pub mod format;
 mod locate;
 mod rulebook;
 mod shapes;
+#[cfg(test)]
+mod tests;
+mod unique;
 
 use std::sync::Arc;
 

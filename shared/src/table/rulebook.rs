@@ -1,6 +1,6 @@
 //! The rules of a table with every name resolved to a number.
 
-use super::check::Context;
+use super::check::{Context, Spot, is_printable, unprintable};
 use super::error::TableError;
 use super::format::{ActionFile, ElementFile, EventFile, RulesFile};
 
@@ -68,6 +68,8 @@ pub enum Command {
 const MOST_RULES: usize = 500;
 /// Most actions of a rule.
 const MOST_ACTIONS: usize = 32;
+/// Most points of one action.
+const MOST_POINTS: u64 = 1_000_000_000;
 
 /// What kind of element a rule's name must stand for.
 #[derive(Clone, Copy, PartialEq)]
@@ -111,50 +113,55 @@ impl Kind {
 }
 
 pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBook, TableError> {
-    context.in_range(None, "balls", f64::from(rules.balls), 1.0, 100.0, "3")?;
-    context.in_range(None, "max_multiplier", f64::from(rules.max_multiplier), 1.0, 100.0, "6")?;
+    context.in_range(Spot::Rules, "balls", f64::from(rules.balls), 1.0, 100.0, "3")?;
+    context.in_range(Spot::Rules, "max_multiplier", f64::from(rules.max_multiplier), 1.0, 100.0, "6")?;
     let mut book =
         RuleBook { balls: rules.balls, max_multiplier: rules.max_multiplier, rules: Vec::new(), messages: Vec::new() };
     if rules.on.len() > MOST_RULES {
         let problem = format!("{} rules are more than {MOST_RULES}", rules.on.len());
-        return Err(context.error(None, Some("on"), problem));
+        return Err(context.error(Spot::Rules, Some("on"), problem));
     }
-    for rule in &rules.on {
+    for (place, rule) in rules.on.iter().enumerate() {
+        let spot = Spot::Rule(place);
         if rule.run.len() > MOST_ACTIONS {
             let problem = format!("{} actions in one rule are more than {MOST_ACTIONS}", rule.run.len());
-            return Err(context.error(None, Some("run"), problem));
+            return Err(context.error(spot, Some("run"), problem));
         }
-        let trigger = match &rule.event {
-            EventFile::Hit(name) => Trigger::Hit(elements(context, name, Kind::Hittable)?),
-            EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Rollover)?),
-            EventFile::AllLit(name) => Trigger::AllLit(bits(context, name, Kind::Light)?),
-            EventFile::AllDown(name) => Trigger::AllDown(bits(context, name, Kind::Target)?),
-            EventFile::BallStart => Trigger::BallStart,
-            EventFile::BallEnd => Trigger::BallEnd,
-        };
-        let commands =
-            rule.run.iter().map(|action| command(context, action, &mut book.messages)).collect::<Result<_, _>>()?;
+        let in_event = |problem| context.error(spot, Some("event"), problem);
+        let trigger = trigger(context, &rule.event).map_err(in_event)?;
+        let mut commands = Vec::new();
+        for (place, action) in rule.run.iter().enumerate() {
+            let in_action = |problem| context.error_at(spot, Some("run"), Some(place), problem);
+            commands.push(command(context, action, &mut book.messages).map_err(in_action)?);
+        }
         book.rules.push(Rule { trigger, commands });
     }
     Ok(book)
 }
 
-fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String>) -> Result<Command, TableError> {
+fn trigger(context: &Context<'_>, event: &EventFile) -> Result<Trigger, String> {
+    Ok(match event {
+        EventFile::Hit(name) => Trigger::Hit(elements(context, name, Kind::Hittable)?),
+        EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Rollover)?),
+        EventFile::AllLit(name) => Trigger::AllLit(bits(context, name, Kind::Light)?),
+        EventFile::AllDown(name) => Trigger::AllDown(bits(context, name, Kind::Target)?),
+        EventFile::BallStart => Trigger::BallStart,
+        EventFile::BallEnd => Trigger::BallEnd,
+    })
+}
+
+fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String>) -> Result<Command, String> {
     Ok(match action {
-        ActionFile::Score(points) => Command::Score(points_in_range(context, *points)?),
-        ActionFile::Bonus(points) => Command::Bonus(points_in_range(context, *points)?),
+        ActionFile::Score(points) => Command::Score(points_in_range(*points)?),
+        ActionFile::Bonus(points) => Command::Bonus(points_in_range(*points)?),
         ActionFile::RaiseMultiplier => Command::RaiseMultiplier,
         ActionFile::CollectBonus => Command::CollectBonus,
         ActionFile::Light(name) => Command::Light(bits(context, name, Kind::Light)?),
         ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
         ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
         ActionFile::Message(text) => {
-            if text.is_empty() || text.chars().count() > 40 || text.chars().any(char::is_control) {
-                return Err(context.error(
-                    None,
-                    Some("Message"),
-                    format!("{text:?} is not 1 to 40 printable characters"),
-                ));
+            if !is_printable(text) {
+                return Err(unprintable(text));
             }
             messages.push(text.clone());
             Command::Message((messages.len() - 1) as u16)
@@ -163,27 +170,25 @@ fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String
 }
 
 /// No single rule may make a score overflow within any number of years.
-fn points_in_range(context: &Context<'_>, points: u64) -> Result<u64, TableError> {
-    if points <= 1_000_000_000 {
+fn points_in_range(points: u64) -> Result<u64, String> {
+    if points <= MOST_POINTS {
         Ok(points)
     } else {
-        Err(context.error(None, Some("rules"), format!("{points} points are more than 1000000000 for one event")))
+        Err(format!("{points} points are more than {MOST_POINTS}; at most that many would be right for one event"))
     }
 }
 
 /// The elements that a name stands for: itself, or the members of a group.
-fn elements(context: &Context<'_>, name: &str, kind: Kind) -> Result<Vec<u16>, TableError> {
+fn elements(context: &Context<'_>, name: &str, kind: Kind) -> Result<Vec<u16>, String> {
     let names = context.file.groups.get(name).map_or_else(|| vec![name.to_owned()], Clone::clone);
     let mut found = Vec::new();
     for member in &names {
-        let index = context.index_of(member).ok_or_else(|| {
-            let problem = format!("a rule speaks of {name:?}, which is neither an element nor a group");
-            context.error(None, Some("rules"), problem)
-        })?;
+        let index = context
+            .index_of(member)
+            .ok_or_else(|| format!("{name:?} is neither an element nor a group; {} would be right", kind.expected()))?;
         if !kind.fits(&context.file.elements[usize::from(index)]) {
-            let problem =
-                format!("a rule speaks of {name:?} where {} would be right, and {member:?} is not", kind.expected());
-            return Err(context.error(None, Some("rules"), problem));
+            let who = if member == name { format!("{name:?}") } else { format!("{member:?} of the group {name:?}") };
+            return Err(format!("{who} is of the wrong kind; {} would be right", kind.expected()));
         }
         found.push(index);
     }
@@ -191,7 +196,7 @@ fn elements(context: &Context<'_>, name: &str, kind: Kind) -> Result<Vec<u16>, T
 }
 
 /// The same, as one bit each among the elements of that kind.
-fn bits(context: &Context<'_>, name: &str, kind: Kind) -> Result<u64, TableError> {
+fn bits(context: &Context<'_>, name: &str, kind: Kind) -> Result<u64, String> {
     let all: Vec<u16> = (0_u16..).zip(&context.file.elements).filter(|(_, e)| kind.fits(e)).map(|(i, _)| i).collect();
     let mut bits = 0;
     for index in elements(context, name, kind)? {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::check::{Context, vector};
+use super::check::{Context, Spot, vector};
 use super::error::TableError;
 use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point};
 use crate::math::{direction, radians, tangent};
@@ -33,7 +33,7 @@ pub(super) fn build(context: &Context<'_>) -> Result<Scene, TableError> {
         builder.add(index, element)?;
         if builder.scene.colliders.len() > MOST_COLLIDERS {
             let problem = format!("the elements up to this one have more than {MOST_COLLIDERS} sides and corners");
-            return Err(context.error(Some(element.name()), None, problem));
+            return Err(context.error(Spot::Element(index), None, problem));
         }
     }
     Ok(builder.scene)
@@ -46,43 +46,43 @@ struct Builder<'a> {
 
 impl Builder<'_> {
     fn add(&mut self, index: u16, element: &ElementFile) -> Result<(), TableError> {
-        let name = element.name();
+        let spot = Spot::Element(index);
         match element {
             ElementFile::Wall(wall) => {
-                let material = self.material(name, &wall.material)?;
-                self.polyline(index, name, &wall.points, material)
+                let material = self.material(spot, &wall.material)?;
+                self.polyline(index, &wall.points, material)
             }
             ElementFile::Arc(arc) => self.arc(index, arc),
             ElementFile::Post(post) => {
-                let material = self.material(name, &post.material)?;
-                self.disc(index, name, post.center, post.radius, material, Role::Solid)
+                let material = self.material(spot, &post.material)?;
+                self.disc(index, post.center, post.radius, material, Role::Solid)
             }
             ElementFile::Gate(gate) => {
-                let material = self.material(name, &gate.material)?;
-                let mut segment = self.segment(name, gate.from, gate.to)?;
+                let material = self.material(spot, &gate.material)?;
+                let mut segment = self.segment(spot, gate.from, gate.to)?;
                 segment.one_way = true;
                 self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
                 Ok(())
             }
             ElementFile::Bumper(bumper) => {
-                let material = self.material(name, &bumper.material)?;
-                let role = self.kicker(name, bumper.kick, bumper.threshold)?;
-                self.disc(index, name, bumper.center, bumper.radius, material, role)
+                let material = self.material(spot, &bumper.material)?;
+                let role = self.kicker(spot, bumper.kick, bumper.threshold)?;
+                self.disc(index, bumper.center, bumper.radius, material, role)
             }
             ElementFile::Slingshot(sling) => {
-                let material = self.material(name, &sling.material)?;
-                let role = self.kicker(name, sling.kick, sling.threshold)?;
-                let segment = self.segment(name, sling.from, sling.to)?;
+                let material = self.material(spot, &sling.material)?;
+                let role = self.kicker(spot, sling.kick, sling.threshold)?;
+                let segment = self.segment(spot, sling.from, sling.to)?;
                 self.push(index, Shape::Segment(segment), material, role, Presence::Always);
                 Ok(())
             }
             ElementFile::DropTarget(target) => {
-                let material = self.material(name, &target.material)?;
-                self.speed(name, "threshold", target.threshold)?;
+                let material = self.material(spot, &target.material)?;
+                self.speed(spot, "threshold", target.threshold)?;
                 let place = self.scene.targets;
                 self.scene.targets += 1;
                 let role = Role::Target { index: place, threshold: target.threshold };
-                let segment = self.segment(name, target.from, target.to)?;
+                let segment = self.segment(spot, target.from, target.to)?;
                 let presence = Presence::TargetUp(place);
                 self.push(index, Shape::Segment(segment), material, role, presence);
                 for end in [target.from, target.to] {
@@ -95,8 +95,8 @@ impl Builder<'_> {
             ElementFile::Flipper(flipper) => self.flipper(index, flipper),
             ElementFile::Plunger(plunger) => self.plunger(index, plunger),
             ElementFile::Light(light) => {
-                self.context.point(name, "center", light.center)?;
-                self.length(name, "radius", light.radius)
+                self.context.point(spot, "center", None, light.center)?;
+                self.length(spot, "radius", light.radius)
             }
         }
     }
@@ -106,52 +106,63 @@ impl Builder<'_> {
         self.scene.colliders.push(Collider { shape, bounds, material, element, role, presence });
     }
 
-    fn material(&self, element: &str, name: &str) -> Result<Material, TableError> {
+    fn material(&self, spot: Spot<'_>, name: &str) -> Result<Material, TableError> {
         let materials = &self.context.file.materials;
         let Some(found) = materials.get(name) else {
             let known: Vec<_> = materials.keys().map(String::as_str).collect();
             let problem = format!("there is no material {name:?}; there are: {}", known.join(", "));
-            return Err(self.context.error(Some(element), Some("material"), problem));
+            return Err(self.context.error(spot, Some("material"), problem));
         };
         Ok(Material { restitution: found.restitution, falloff: found.falloff, friction: found.friction })
     }
 
-    fn length(&self, element: &str, field: &str, value: f64) -> Result<(), TableError> {
-        self.context.in_range(Some(element), field, value, 1e-5, 1e3, "a length in metres such as 0.02")
+    fn length(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
+        self.context.in_range(spot, field, value, 1e-5, 1e3, "a length in metres such as 0.02")
     }
 
-    fn speed(&self, element: &str, field: &str, value: f64) -> Result<(), TableError> {
-        self.context.in_range(Some(element), field, value, 0.0, 100.0, "a speed in m/s such as 0.8")
+    fn speed(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
+        self.context.in_range(spot, field, value, 0.0, 100.0, "a speed in m/s such as 0.8")
     }
 
-    fn kicker(&self, element: &str, kick: f64, threshold: f64) -> Result<Role, TableError> {
-        self.speed(element, "kick", kick)?;
-        self.speed(element, "threshold", threshold)?;
+    fn kicker(&self, spot: Spot<'_>, kick: f64, threshold: f64) -> Result<Role, TableError> {
+        self.speed(spot, "kick", kick)?;
+        self.speed(spot, "threshold", threshold)?;
         Ok(Role::Kicker { speed: kick, threshold })
     }
 
-    fn segment(&self, element: &str, from: Point, to: Point) -> Result<Segment, TableError> {
-        let (a, b) = (self.context.point(element, "from", from)?, self.context.point(element, "to", to)?);
-        self.between(element, "to", a, b)
+    fn segment(&self, spot: Spot<'_>, from: Point, to: Point) -> Result<Segment, TableError> {
+        let (a, b) = (self.context.point(spot, "from", None, from)?, self.context.point(spot, "to", None, to)?);
+        self.between(spot, "to", None, a, b)
     }
 
-    fn between(&self, element: &str, field: &str, a: DVec2, b: DVec2) -> Result<Segment, TableError> {
+    fn between(
+        &self,
+        spot: Spot<'_>,
+        field: &str,
+        item: Option<usize>,
+        a: DVec2,
+        b: DVec2,
+    ) -> Result<Segment, TableError> {
         // Shorter than this a direction has no digits left.
         if (b - a).length() < 1e-9 {
             let problem = format!("two ends at ({}, {}) make no line; they must differ", b.x, b.y);
-            return Err(self.context.error(Some(element), Some(field), problem));
+            return Err(self.context.error_at(spot, Some(field), item, problem));
         }
         Ok(Segment::new(a, b))
     }
 
-    fn polyline(&mut self, index: u16, name: &str, points: &[Point], material: Material) -> Result<(), TableError> {
+    fn polyline(&mut self, index: u16, points: &[Point], material: Material) -> Result<(), TableError> {
+        let spot = Spot::Element(index);
         if points.len() < 2 || points.len() > 500 {
             let problem = format!("{} points; 2 to 500 would be right", points.len());
-            return Err(self.context.error(Some(name), Some("points"), problem));
+            return Err(self.context.error(spot, Some("points"), problem));
         }
-        let places = points.iter().map(|&p| self.context.point(name, "points", p)).collect::<Result<Vec<_>, _>>()?;
-        for pair in places.windows(2) {
-            let segment = self.between(name, "points", pair[0], pair[1])?;
+        let mut places = Vec::with_capacity(points.len());
+        for (item, &point) in points.iter().enumerate() {
+            places.push(self.context.point(spot, "points", Some(item), point)?);
+        }
+        for (item, pair) in places.windows(2).enumerate() {
+            let segment = self.between(spot, "points", Some(item + 1), pair[0], pair[1])?;
             self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
         }
         // A closed line has its first corner only once.
@@ -165,27 +176,27 @@ impl Builder<'_> {
     fn disc(
         &mut self,
         index: u16,
-        name: &str,
         center: Point,
         radius: f64,
         material: Material,
         role: Role,
     ) -> Result<(), TableError> {
-        let center = self.context.point(name, "center", center)?;
-        self.length(name, "radius", radius)?;
+        let spot = Spot::Element(index);
+        let center = self.context.point(spot, "center", None, center)?;
+        self.length(spot, "radius", radius)?;
         let shape = Shape::Arc(Arc { center, radius, side: Side::Outside, span: None });
         self.push(index, shape, material, role, Presence::Always);
         Ok(())
     }
 
     fn arc(&mut self, index: u16, arc: &ArcFile) -> Result<(), TableError> {
-        let name = arc.name.as_str();
-        let material = self.material(name, &arc.material)?;
-        let center = self.context.point(name, "center", arc.center)?;
-        self.length(name, "radius", arc.radius)?;
-        self.context.in_range(Some(name), "from", arc.from, -720.0, 720.0, "an angle in degrees such as -90")?;
+        let spot = Spot::Element(index);
+        let material = self.material(spot, &arc.material)?;
+        let center = self.context.point(spot, "center", None, arc.center)?;
+        self.length(spot, "radius", arc.radius)?;
+        self.context.in_range(spot, "from", arc.from, -720.0, 720.0, "an angle in degrees such as -90")?;
         let most = arc.from + 360.0;
-        self.context.in_range(Some(name), "to", arc.to, arc.from + 1e-3, most, "an angle clockwise of `from`")?;
+        self.context.in_range(spot, "to", arc.to, arc.from + 1e-3, most, "an angle clockwise of `from`")?;
         let middle = direction(radians(0.5 * (arc.from + arc.to)));
         let cosine = libm::cos(radians(0.5 * (arc.to - arc.from)));
         let span = (arc.to < most).then_some((middle, cosine));
@@ -205,19 +216,18 @@ impl Builder<'_> {
     }
 
     fn sensor(&mut self, index: u16, line: &LineFile, role: Role) -> Result<(), TableError> {
-        let segment = self.segment(&line.name, line.from, line.to)?;
+        let segment = self.segment(Spot::Element(index), line.from, line.to)?;
         let none = Material { restitution: 0.0, falloff: 0.0, friction: 0.0 };
         self.push(index, Shape::Segment(segment), none, role, Presence::Always);
         Ok(())
     }
 
     fn flipper(&mut self, element: u16, file: &FlipperFile) -> Result<(), TableError> {
-        let name = file.name.as_str();
-        let check =
-            |field, value, low, high, example| self.context.in_range(Some(name), field, value, low, high, example);
-        self.length(name, "length", file.length)?;
-        self.length(name, "base_radius", file.base_radius)?;
-        self.length(name, "tip_radius", file.tip_radius)?;
+        let spot = Spot::Element(element);
+        let check = |field, value, low, high, example| self.context.in_range(spot, field, value, low, high, example);
+        self.length(spot, "length", file.length)?;
+        self.length(spot, "base_radius", file.base_radius)?;
+        self.length(spot, "tip_radius", file.tip_radius)?;
         check("base_radius", file.base_radius, file.tip_radius, file.tip_radius + 0.9 * file.length, "0.0111 m")?;
         check("rest", file.rest, -360.0, 360.0, "120.5 degrees")?;
         check("raised", file.raised, file.rest - 180.0, file.rest - 0.1, "an angle below `rest`, such as 70")?;
@@ -231,7 +241,7 @@ impl Builder<'_> {
         let spec = FlipperSpec {
             element,
             right: file.hand == Hand::Right,
-            pivot: self.context.point(name, "pivot", file.pivot)?,
+            pivot: self.context.point(spot, "pivot", None, file.pivot)?,
             length: file.length,
             base_radius: file.base_radius,
             tip_radius: file.tip_radius,
@@ -244,7 +254,7 @@ impl Builder<'_> {
             hold_within: radians(file.hold_within),
             return_share: file.return_share,
             stop_restitution: file.stop_restitution,
-            material: self.material(name, &file.material)?,
+            material: self.material(spot, &file.material)?,
         };
         let place = self.scene.flippers.len() as u16;
         for (swing, presence) in [(0.0, Presence::FlipperAtRest(place)), (spec.stroke, Presence::FlipperRaised(place))]
@@ -258,13 +268,13 @@ impl Builder<'_> {
     }
 
     fn plunger(&mut self, element: u16, file: &PlungerFile) -> Result<(), TableError> {
-        let name = file.name.as_str();
-        self.length(name, "stroke", file.stroke)?;
-        self.context.in_range(Some(name), "mass", file.mass, 1e-6, 1e6, "0.06 kg")?;
-        self.context.in_range(Some(name), "force", file.force, 1e-6, 1e6, "30 N")?;
-        self.context.in_range(Some(name), "hand_speed", file.hand_speed, 1e-6, 100.0, "0.15 m/s")?;
-        let material = self.material(name, &file.material)?;
-        let segment = self.segment(name, file.from, file.to)?;
+        let spot = Spot::Element(element);
+        self.length(spot, "stroke", file.stroke)?;
+        self.context.in_range(spot, "mass", file.mass, 1e-6, 1e6, "0.06 kg")?;
+        self.context.in_range(spot, "force", file.force, 1e-6, 1e6, "30 N")?;
+        self.context.in_range(spot, "hand_speed", file.hand_speed, 1e-6, 100.0, "0.15 m/s")?;
+        let material = self.material(spot, &file.material)?;
+        let segment = self.segment(spot, file.from, file.to)?;
         let place = self.scene.plungers.len() as u16;
         self.push(element, Shape::Segment(segment), material, Role::Solid, Presence::PlungerHome(place));
         self.scene.plungers.push(PlungerSpec {
