@@ -18,6 +18,10 @@ pub struct Config {
     pub most_connections: usize,
     /// How long a client may take to say hello.
     pub handshake_time: Duration,
+    /// How long a client may say nothing; a client that is there pings.
+    pub silent_time: Duration,
+    /// Bytes that the system may hold for a client that takes nothing: beyond them it loses snapshots.
+    pub send_buffer: usize,
     /// How long a client may take none of what is sent to it.
     pub write_time: Duration,
 }
@@ -31,6 +35,8 @@ impl Config {
             seed: 1,
             most_connections: 256,
             handshake_time: Duration::from_secs(5),
+            silent_time: Duration::from_secs(15),
+            send_buffer: 32 * 1024,
             write_time: Duration::from_secs(10),
         }
     }

@@ -10,6 +10,7 @@ use shared::protocol::{
     ClientMessage, Hello, MOST_FROM_CLIENT, ServerMessage, Welcome, check_name, decode, decode_greeting, encode,
     encode_greeting,
 };
+use socket2::SockRef;
 use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::{broadcast, mpsc, oneshot};
@@ -17,9 +18,9 @@ use tokio::time::timeout;
 use tokio_util::codec::{FramedRead, FramedWrite, LengthDelimitedCodec};
 
 use crate::config::Config;
-use crate::room::{Command, Joined};
+use crate::room::Command;
 
-/// Frames for one client alone that may wait to be written; a client that is further behind is gone.
+/// Frames for one client alone that may wait to be written; what is sent beyond is lost or told later.
 const DIRECT_WAITING: usize = 64;
 
 type Reader = FramedRead<OwnedReadHalf, LengthDelimitedCodec>;
@@ -37,18 +38,21 @@ pub(crate) async fn serve(
     config: Arc<Config>,
     frames: broadcast::Sender<Bytes>,
     commands: mpsc::Sender<Command>,
-    is_full: bool,
 ) {
     // Without this a small frame waits for the acknowledgement of the one before.
     if let Err(error) = stream.set_nodelay(true) {
         tracing::debug!(%address, "no TCP_NODELAY: {error}");
+    }
+    // With the system's own buffers a stalled client would fall minutes behind before anybody noticed.
+    if let Err(error) = SockRef::from(&stream).set_send_buffer_size(config.send_buffer) {
+        tracing::debug!(%address, "no SO_SNDBUF: {error}");
     }
     let (read, write) = stream.into_split();
     let mut reader = FramedRead::new(read, codec(MOST_FROM_CLIENT));
     let mut writer = FramedWrite::new(write, codec(shared::protocol::MOST_FROM_SERVER));
 
     let hello = tokio::select! {
-        hello = greet(&mut reader, is_full) => hello,
+        hello = greet(&mut reader) => hello,
         () = tokio::time::sleep(config.handshake_time) => Err("no hello came in time".to_owned()),
         () = commands.closed() => Err("the server ends".to_owned()),
     };
@@ -62,10 +66,12 @@ pub(crate) async fn serve(
     let (direct, direct_frames) = mpsc::channel(DIRECT_WAITING);
     let (reply, joined) = oneshot::channel();
     let join = Command::Join { name: hello.name.clone(), role: hello.role, direct, reply };
-    if commands.send(join).await.is_err() {
-        return;
-    }
-    let Ok(Joined { client }) = joined.await else { return };
+    let _ = commands.send(join).await;
+    // Without an answer the room has ended.
+    let client = match joined.await.unwrap_or_else(|_| Err("the server ends".to_owned())) {
+        Ok(client) => client,
+        Err(reason) => return refuse(&mut writer, &config, address, reason).await,
+    };
     tracing::info!(client, %address, name = hello.name, role = ?hello.role, "joined");
 
     let welcome = ServerMessage::Welcome(Welcome {
@@ -77,7 +83,7 @@ pub(crate) async fn serve(
     let greeting = timeout(config.write_time, writer.send(Bytes::from(encode_greeting(&welcome)))).await;
     let reason = match greeting {
         Ok(Ok(())) => tokio::select! {
-            reason = read_frames(&mut reader, client, &commands) => reason,
+            reason = read_frames(&mut reader, &config, client, &commands) => reason,
             reason = write_frames(&mut writer, &config, shared_frames, direct_frames) => reason,
         },
         _ => "the welcome could not be sent".to_owned(),
@@ -88,7 +94,7 @@ pub(crate) async fn serve(
 }
 
 /// Reads the hello. The error is what the client is told.
-async fn greet(reader: &mut Reader, is_full: bool) -> Result<Hello, String> {
+async fn greet(reader: &mut Reader) -> Result<Hello, String> {
     let frame = match reader.next().await {
         Some(Ok(frame)) => frame,
         Some(Err(error)) => return Err(format!("the first frame cannot be read: {error}")),
@@ -96,9 +102,6 @@ async fn greet(reader: &mut Reader, is_full: bool) -> Result<Hello, String> {
     };
     let hello: Hello = decode_greeting(&frame).map_err(|error| error.to_string())?;
     check_name(&hello.name)?;
-    if is_full {
-        return Err("the server is full; try again later".to_owned());
-    }
     Ok(hello)
 }
 
@@ -110,8 +113,13 @@ async fn refuse(writer: &mut Writer, config: &Config, address: SocketAddr, reaso
 }
 
 /// Hands the client's messages to the room; returns why it ends.
-async fn read_frames(reader: &mut Reader, client: u32, commands: &mpsc::Sender<Command>) -> String {
-    while let Some(frame) = reader.next().await {
+async fn read_frames(reader: &mut Reader, config: &Config, client: u32, commands: &mpsc::Sender<Command>) -> String {
+    loop {
+        let frame = match timeout(config.silent_time, reader.next()).await {
+            Ok(Some(frame)) => frame,
+            Ok(None) => return "it closed the connection".to_owned(),
+            Err(_) => return "it said nothing for too long".to_owned(),
+        };
         let message = frame
             .map_err(|error| error.to_string())
             .and_then(|frame| decode::<ClientMessage>(&frame).map_err(|error| error.to_string()));
@@ -132,7 +140,6 @@ async fn read_frames(reader: &mut Reader, client: u32, commands: &mpsc::Sender<C
             }
         }
     }
-    "it closed the connection".to_owned()
 }
 
 /// Writes what everybody gets and what this client alone gets; returns why it ends.

@@ -57,12 +57,14 @@ pub async fn run(
     let (commands, waiting) = mpsc::channel(COMMANDS_WAITING);
     let config = Arc::new(config);
     let (stop, stopped) = tokio::sync::oneshot::channel();
-    let room = tokio::spawn(room::Room::new(Arc::clone(&config), frames.clone()).run(waiting, stopped));
+    let mut room = tokio::spawn(room::Room::new(Arc::clone(&config), frames.clone()).run(waiting, stopped));
 
     let mut connections = JoinSet::new();
     tokio::select! {
         () = listener::accept(&listener, &config, &frames, &commands, &mut connections) => {}
         () = shutdown => {}
+        // Only if it fails: a server without a room must not go on.
+        ended = &mut room => return Ok(ended?),
     }
     // The room says goodbye to all; with the last sender of frames gone, connections end by themselves.
     drop(stop);

@@ -33,11 +33,10 @@ pub(crate) async fn accept(
             }
         };
         while connections.try_join_next().is_some() {}
-        let is_full = connections.len() >= config.most_connections;
-        let task = connection::serve(stream, address, Arc::clone(config), frames.clone(), commands.clone(), is_full);
-        // A refusal takes a connection's time too, but not without bound.
+        // The room knows who is let in; but who has not said hello yet takes a socket too.
         if connections.len() < config.most_connections.saturating_mul(2) {
-            connections.spawn(task);
+            let (config, frames, commands) = (Arc::clone(config), frames.clone(), commands.clone());
+            connections.spawn(connection::serve(stream, address, config, frames, commands));
         }
     }
 }

@@ -5,14 +5,11 @@ use std::collections::{BTreeMap, VecDeque};
 
 use bytes::Bytes;
 use shared::game::{Action, SEATS};
-use shared::protocol::{Roster, ServerMessage};
+use shared::protocol::{MOST_IN_LINE, Roster, ServerMessage};
 use tokio::sync::mpsc;
 
 use crate::connection::frame_of;
 use crate::session::SessionState;
-
-/// Names of the line that a roster tells.
-const LINE_TOLD: usize = 32;
 
 /// A connected client.
 #[derive(Debug)]
@@ -20,6 +17,8 @@ struct Client {
     name: String,
     state: SessionState,
     direct: mpsc::Sender<Bytes>,
+    /// It has not been told yet who is there and what it is.
+    is_stale: bool,
 }
 
 /// Who has a seat.
@@ -46,7 +45,6 @@ pub(crate) struct Lobby {
     clients: BTreeMap<u32, Client>,
     seats: [Option<Sitter>; SEATS],
     line: VecDeque<u32>,
-    changed: bool,
 }
 
 /// Something the game has to be told: a seat and what it does.
@@ -55,8 +53,8 @@ pub(crate) type Deed = (u8, Action);
 impl Lobby {
     /// A client came in; it watches until it asks for more.
     pub(crate) fn add(&mut self, id: u32, name: String, direct: mpsc::Sender<Bytes>) {
-        self.clients.insert(id, Client { name, state: SessionState::Watching, direct });
-        self.changed = true;
+        self.clients.insert(id, Client { name, state: SessionState::Watching, direct, is_stale: true });
+        self.note_change();
     }
 
     /// What a client is; `None` if it is gone.
@@ -82,6 +80,8 @@ impl Lobby {
         let Some(state) = self.state(id) else { return Vec::new() };
         self.line.retain(|&waiting| waiting != id);
         self.set_state(id, SessionState::Watching);
+        // Whoever asks is told, even if nothing changed.
+        self.clients.entry(id).and_modify(|client| client.is_stale = true);
         match state {
             SessionState::Seated(seat) => {
                 self.seats[usize::from(seat)] = None;
@@ -96,7 +96,9 @@ impl Lobby {
     /// A client is gone.
     pub(crate) fn remove(&mut self, id: u32, game: GameView) -> Vec<Deed> {
         let deeds = self.leave(id, game);
-        self.changed |= self.clients.remove(&id).is_some();
+        if self.clients.remove(&id).is_some() {
+            self.note_change();
+        }
         deeds
     }
 
@@ -130,7 +132,7 @@ impl Lobby {
             return Vec::new();
         }
         self.seats[0] = Some(Sitter::Bot);
-        self.changed = true;
+        self.note_change();
         vec![(0, Action::Sit), (0, Action::Start)]
     }
 
@@ -139,7 +141,7 @@ impl Lobby {
             return Vec::new();
         };
         self.seats[seat] = None;
-        self.changed = true;
+        self.note_change();
         vec![(seat as u8, Action::Stand)]
     }
 
@@ -162,39 +164,54 @@ impl Lobby {
         }
     }
 
-    /// A roster for everybody and a `You` for each, if something has changed since the last call.
-    pub(crate) fn news(&mut self) -> Option<Roster> {
-        if !std::mem::take(&mut self.changed) {
-            return None;
+    /// How many are connected.
+    pub(crate) fn len(&self) -> usize {
+        self.clients.len()
+    }
+
+    /// Tells everybody who has not been told yet who is there, and what they are. A client that takes nothing just now
+    /// is told the next time.
+    pub(crate) fn tell_news(&mut self) {
+        if !self.clients.values().any(|client| client.is_stale) {
+            return;
         }
-        for (id, client) in &self.clients {
+        let roster = frame_of(&ServerMessage::Roster(self.roster()));
+        for (id, client) in &mut self.clients {
+            if !client.is_stale {
+                continue;
+            }
             let seat = match client.state {
                 SessionState::Seated(seat) => Some(seat),
                 _ => None,
             };
             let line = self.line.iter().position(|waiting| waiting == id);
             let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
-            // A client that takes nothing is ended by its writer.
-            let _ = client.direct.try_send(frame_of(&ServerMessage::You { seat, line }));
+            let you = frame_of(&ServerMessage::You { seat, line });
+            client.is_stale = client.direct.try_send(roster.clone()).is_err() || client.direct.try_send(you).is_err();
         }
+    }
+
+    /// Who is there.
+    fn roster(&self) -> Roster {
         let seated = self.seats.iter().filter(|sitter| matches!(sitter, Some(Sitter::Client(_)))).count();
         let mut seats = <[Option<String>; SEATS]>::default();
         for (seat, name) in (0..).zip(&mut seats) {
             *name = self.seats[usize::from(seat)].map(|_| self.name_of(seat).to_owned());
         }
         let names = self.line.iter().filter_map(|id| self.clients.get(id));
-        Some(Roster {
+        Roster {
             seats,
-            line: names.map(|client| client.name.clone()).take(LINE_TOLD).collect(),
-            spectators: u32::try_from(self.clients.len() - seated).unwrap_or(u32::MAX),
-        })
+            line: names.map(|client| client.name.clone()).take(MOST_IN_LINE).collect(),
+            spectators: u32::try_from(self.clients.len().saturating_sub(seated)).unwrap_or(u32::MAX),
+        }
     }
 
-    /// Sends one client a message.
+    /// Sends one client a message that it can do without: one that takes nothing just now does not get it.
     pub(crate) fn tell(&self, id: u32, message: &ServerMessage) {
-        if let Some(client) = self.clients.get(&id) {
-            // A client that takes nothing is ended by its writer.
-            let _ = client.direct.try_send(frame_of(message));
+        if let Some(client) = self.clients.get(&id)
+            && client.direct.try_send(frame_of(message)).is_err()
+        {
+            tracing::debug!(client = id, "takes nothing just now");
         }
     }
 
@@ -206,9 +223,18 @@ impl Lobby {
     }
 
     fn set_state(&mut self, id: u32, state: SessionState) {
-        if let Some(client) = self.clients.get_mut(&id) {
+        if let Some(client) = self.clients.get_mut(&id)
+            && client.state != state
+        {
             client.state = state;
-            self.changed = true;
+            self.note_change();
+        }
+    }
+
+    /// Everybody has to be told.
+    fn note_change(&mut self) {
+        for client in self.clients.values_mut() {
+            client.is_stale = true;
         }
     }
 }
@@ -260,6 +286,31 @@ mod tests {
         assert_eq!(lobby.name_of(0), "Bob");
     }
 
+    /// A client in line had a stall, its queue was full, and it never learned that it had been seated.
+    #[test]
+    fn who_took_nothing_for_a_while_is_told_later() {
+        let mut lobby = Lobby::default();
+        let (direct, mut frames) = mpsc::channel(2);
+        lobby.add(0, "Ann".to_owned(), direct);
+        lobby.tell_news();
+        lobby.play(0, START);
+        lobby.tell_news();
+        let told = |frames: &mut mpsc::Receiver<Bytes>| {
+            let mut last = None;
+            while let Ok(frame) = frames.try_recv() {
+                if let Ok(ServerMessage::You { seat, .. }) = shared::protocol::decode(&frame) {
+                    last = Some(seat);
+                }
+            }
+            last
+        };
+        assert_eq!(told(&mut frames), Some(None), "the second news found the queue full");
+        lobby.tell_news();
+        assert_eq!(told(&mut frames), Some(Some(0)));
+        lobby.tell_news();
+        assert_eq!(told(&mut frames), None, "nobody is told twice");
+    }
+
     #[test]
     fn whoever_gives_up_a_place_in_line_is_not_seated() {
         let mut lobby = lobby_with(&["Ann", "Bob"]);
@@ -267,8 +318,7 @@ mod tests {
         lobby.play(1, LATE);
         assert!(lobby.leave(1, LATE).is_empty());
         assert!(lobby.fill_seats(START).is_empty());
-        let roster = lobby.news().expect("changed");
+        let roster = lobby.roster();
         assert_eq!((roster.spectators, roster.line.len()), (1, 0));
-        assert!(lobby.news().is_none());
     }
 }

@@ -8,7 +8,7 @@ use std::time::Duration;
 use bytes::Bytes;
 use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, SEATS};
 use shared::physics::flipper::FlipperRest;
-use shared::protocol::{ClientMessage, Role, SNAPSHOT_HZ, ServerMessage, Snapshot};
+use shared::protocol::{ClientMessage, MOST_EVENTS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS};
 use tokio::sync::{broadcast, mpsc, oneshot};
 use tokio::time::{Instant, MissedTickBehavior};
 
@@ -21,14 +21,16 @@ use crate::session::{SessionState, is_legal};
 
 /// How often the room wakes to step what is due: a fourth of a snapshot's interval.
 const WAKE_EVERY: Duration = Duration::from_millis(4);
+/// Commands that are heard at each wake, however late it is.
+const COMMANDS_A_WAKE: usize = 256;
 /// Seconds by which a player may stamp an input ahead.
 const MOST_LEAD: f64 = 0.25;
 /// Controls of one seat that may wait for their tick; more are dropped.
 const MOST_PENDING: usize = 128;
 /// Seconds without a game after which the bot begins one.
 const BOT_PATIENCE: f64 = 3.0;
-/// Events for show that may gather between two snapshots; more are dropped.
-const MOST_EVENTS: usize = 256;
+/// Things of a seat that a control works: two flippers and the plunger.
+const PARTS: usize = 3;
 
 /// What connections ask of the room.
 #[derive(Debug)]
@@ -41,8 +43,8 @@ pub(crate) enum Command {
         role: Role,
         /// Frames for it alone.
         direct: mpsc::Sender<Bytes>,
-        /// Who it is now.
-        reply: oneshot::Sender<Joined>,
+        /// Who it is now, or why it is not let in.
+        reply: oneshot::Sender<Result<u32, String>>,
     },
     /// A client said something.
     Message {
@@ -65,11 +67,11 @@ pub(crate) enum Command {
     },
 }
 
-/// The answer to a join.
-#[derive(Debug)]
-pub(crate) struct Joined {
-    /// The client's number.
-    pub(crate) client: u32,
+/// When a control was stamped, and when it acts.
+#[derive(Debug, Clone, Copy, Default)]
+struct Stamp {
+    asked: u64,
+    acts: u64,
 }
 
 /// A game and everybody around it.
@@ -81,6 +83,8 @@ pub(crate) struct Room {
     frames: broadcast::Sender<Bytes>,
     /// Inputs for ticks to come.
     pending: Vec<Input>,
+    /// For each seat and part, its last control.
+    stamps: [[Stamp; PARTS]; SEATS],
     /// What happened since the last snapshot.
     events: Vec<GameEvent>,
     /// Ticks without a game.
@@ -99,6 +103,7 @@ impl Room {
             bot: Bot::new(0, config.seed),
             frames,
             pending: Vec::new(),
+            stamps: Default::default(),
             events: Vec::new(),
             idle_ticks: 0,
             next_client: 1,
@@ -131,6 +136,11 @@ impl Room {
                     for _ in 0..due.ticks {
                         self.tick();
                     }
+                    // On a machine that is always late the next wake is due already: nobody must wait for ever.
+                    for _ in 0..COMMANDS_A_WAKE {
+                        let Ok(command) = commands.try_recv() else { break };
+                        self.handle(command);
+                    }
                 }
                 Some(command) = commands.recv() => self.handle(command),
             }
@@ -155,11 +165,9 @@ impl Room {
         self.account.ticks += 1;
         // 4. What happened: for the account, the log and the spectators.
         self.note_events();
-        // 5. Who is there, if that changed; and the game as it is now, sixty times a second.
-        if let Some(roster) = self.lobby.news() {
-            self.send(&ServerMessage::Roster(roster));
-        }
+        // 5. Sixty times a second: who is there, for whom that is news; and the game as it is now, for all.
         if self.is_snapshot_due() {
+            self.lobby.tell_news();
             self.send_snapshot();
         }
     }
@@ -167,12 +175,17 @@ impl Room {
     fn handle(&mut self, command: Command) {
         match command {
             Command::Join { name, role, direct, reply } => {
-                let client = self.next_client;
-                self.next_client = self.next_client.wrapping_add(1);
-                self.account.clients += 1;
-                if reply.send(Joined { client }).is_err() {
+                if self.lobby.len() >= self.config.most_connections {
+                    // The connection may have ended while it waited.
+                    let _ = reply.send(Err("the server is full; try again later".to_owned()));
                     return;
                 }
+                let client = self.next_client;
+                self.next_client = self.next_client.wrapping_add(1);
+                if reply.send(Ok(client)).is_err() {
+                    return;
+                }
+                self.account.clients += 1;
                 self.lobby.add(client, name, direct);
                 if role == Role::Play {
                     let deeds = self.lobby.play(client, self.view());
@@ -224,15 +237,25 @@ impl Room {
         self.perform(&deeds);
     }
 
-    /// A player's control: at the tick it is stamped with if that is near enough ahead, else as soon as possible.
-    fn act(&mut self, seat: u8, tick: u64, action: Action) {
+    /// A player's control: at the tick it is stamped with if that is near enough ahead, else as soon as possible. Two
+    /// controls of one part that come late together keep their distance, up to a tap's: else a late tap would be none.
+    fn act(&mut self, seat: u8, asked: u64, action: Action) {
         let now = self.game.tick();
         let latest = now + (MOST_LEAD / self.game.table().scene.tick_seconds) as u64;
         let of_seat = self.pending.iter().filter(|input| input.seat == seat).count();
-        if of_seat < MOST_PENDING {
-            self.account.controls += 1;
-            self.pending.push(Input { tick: tick.clamp(now, latest), seat, action });
+        if of_seat >= MOST_PENDING {
+            return;
         }
+        let part = match action {
+            Action::Flipper { right, .. } => usize::from(right),
+            _ => PARTS - 1,
+        };
+        let last = &mut self.stamps[usize::from(seat)][part];
+        let distance = asked.saturating_sub(last.asked).min(TAP_TICKS);
+        let tick = asked.clamp(now, latest).max(last.acts + distance).min(latest);
+        *last = Stamp { asked, acts: tick };
+        self.account.controls += 1;
+        self.pending.push(Input { tick, seat, action });
     }
 
     /// What the lobby decided, as inputs of the coming tick.
@@ -327,10 +350,5 @@ impl Room {
         self.account.largest_snapshot = self.account.largest_snapshot.max(frame.len());
         // Nobody may be listening; the game goes on.
         let _ = self.frames.send(frame);
-    }
-
-    fn send(&self, message: &ServerMessage) {
-        // Nobody may be listening.
-        let _ = self.frames.send(frame_of(message));
     }
 }

@@ -8,9 +8,9 @@ use crate::math::bounded;
 /// Longest name of a player, characters.
 const MOST_NAME: usize = 24;
 /// Most events in one snapshot; more are dropped, as they are only for show.
-pub(crate) const MOST_EVENTS: usize = 256;
+pub const MOST_EVENTS: usize = 256;
 /// Most names of a line that a roster tells.
-pub(crate) const MOST_IN_LINE: usize = 32;
+pub const MOST_IN_LINE: usize = 32;
 
 /// What a client comes for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -142,5 +142,5 @@ pub fn check_name(name: &str) -> Result<(), String> {
 
 /// Format characters that reorder or hide text on a terminal.
 fn is_invisible(c: char) -> bool {
-    matches!(c, '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
+    matches!(c, '\u{ad}' | '\u{61c}' | '\u{200b}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}')
 }

@@ -9,7 +9,9 @@ mod message;
 mod version;
 
 pub use frame::{FrameError, decode, decode_greeting, encode, encode_greeting};
-pub use message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome, check_name};
+pub use message::{
+    ClientMessage, Hello, MOST_EVENTS, MOST_IN_LINE, Role, Roster, ServerMessage, Snapshot, Welcome, check_name,
+};
 pub use version::{PREAMBLE_LENGTH, Preamble, PreambleError, VERSION};
 
 /// The largest frame that a client may send, bytes.

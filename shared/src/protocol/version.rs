@@ -123,8 +123,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
     let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
     let others = [ClientMessage::Play, ClientMessage::Leave, ClientMessage::Ping { nonce: 1 }];
     let welcome = Welcome { client: 1, physics: 2, table_digest: 3, table: "()".to_owned() };
-    let roster =
-        Roster { seats: [Some("a".to_owned()), None], line: vec!["b".to_owned()], spectators: 3 };
+    let roster = Roster { seats: [Some("a".to_owned()), None], line: vec!["b".to_owned()], spectators: 3 };
     let from_server = [
         ServerMessage::Welcome(welcome),
         ServerMessage::Refused { reason: "full".to_owned() },
