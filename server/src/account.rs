@@ -13,12 +13,14 @@ pub struct Account {
     pub clients: u64,
     /// Controls that players worked.
     pub controls: u64,
-    /// Strokes of left and right flippers that reached their end.
+    /// Strokes of left and right flippers that came near their end.
     pub strokes: [u64; 2],
     /// Games begun.
     pub games: u64,
     /// Balls served.
     pub balls: u64,
+    /// Times that a stuck or escaped ball was served again.
+    pub rescued: u64,
     /// Snapshots made.
     pub snapshots: u64,
     /// Bytes of the largest of them.
@@ -35,7 +37,7 @@ impl fmt::Display for Account {
         write!(
             f,
             "account: ticks {} skipped {} clients {} controls {} left-strokes {} right-strokes {} games {} balls {} \
-             snapshots {} mean-bytes {mean} largest-bytes {} illegal {}",
+             rescued {} snapshots {} mean-bytes {mean} largest-bytes {} illegal {}",
             self.ticks,
             self.ticks_skipped,
             self.clients,
@@ -44,6 +46,7 @@ impl fmt::Display for Account {
             self.strokes[1],
             self.games,
             self.balls,
+            self.rescued,
             self.snapshots,
             self.largest_snapshot,
             self.illegal,

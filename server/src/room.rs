@@ -7,7 +7,6 @@ use std::time::Duration;
 
 use bytes::Bytes;
 use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, SEATS};
-use shared::physics::flipper::FlipperRest;
 use shared::protocol::{ClientMessage, MOST_EVENTS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS};
 use tokio::sync::{broadcast, mpsc, oneshot};
 use tokio::time::{Instant, MissedTickBehavior};
@@ -90,7 +89,7 @@ pub(crate) struct Room {
     /// Ticks without a game.
     idle_ticks: u64,
     next_client: u32,
-    /// Flippers that lay at their upper stop after the last tick, one bit each.
+    /// Flippers in the upper part of a stroke that was counted, one bit each.
     raised: u64,
     account: Account,
 }
@@ -298,17 +297,7 @@ impl Room {
 
     /// 4. Counts, logs and keeps what happened in the tick.
     fn note_events(&mut self) {
-        for flipper in 0..self.game.world().state().flippers.len() {
-            let state = self.game.world().state().flippers[flipper];
-            // A stroke ends in the tick in which the flipper comes to lie at its upper stop.
-            let ended = state.rest == FlipperRest::Raised && state.speed == 0.0;
-            let right = self.game.table().scene.flippers[flipper].right;
-            let bit = 1_u64 << (flipper % 64);
-            if ended && self.raised & bit == 0 {
-                self.account.strokes[usize::from(right)] += 1;
-            }
-            self.raised = if ended { self.raised | bit } else { self.raised & !bit };
-        }
+        self.count_strokes();
         for place in 0..self.game.events().len() {
             let event = self.game.events()[place];
             self.note_event(event.kind);
@@ -318,11 +307,29 @@ impl Room {
         }
     }
 
+    /// A stroke is one when the flipper comes near the upper stop, and over when it is half-way down again.
+    fn count_strokes(&mut self) {
+        let flippers = self.game.world().state().flippers.iter().zip(&self.game.table().scene.flippers);
+        for (place, (flipper, spec)) in flippers.enumerate() {
+            let bit = 1_u64 << (place % 64);
+            if flipper.swing >= 0.95 * spec.stroke && self.raised & bit == 0 {
+                self.raised |= bit;
+                self.account.strokes[usize::from(spec.right)] += 1;
+            } else if flipper.swing < 0.5 * spec.stroke {
+                self.raised &= !bit;
+            }
+        }
+    }
+
     fn note_event(&mut self, kind: GameEventKind) {
         let points = |seat: u8| self.game.seats()[usize::from(seat)].score.points;
         match kind {
             GameEventKind::Started => self.account.games += 1,
             GameEventKind::Served { .. } => self.account.balls += 1,
+            GameEventKind::Rescued => {
+                self.account.rescued += 1;
+                tracing::warn!("tick {}: a ball was stuck and is served again", self.game.tick());
+            }
             GameEventKind::Lost { seat } => {
                 tracing::info!("{} lost a ball at {} points", self.lobby.name_of(seat), points(seat));
             }

@@ -77,7 +77,7 @@ impl Bot {
             self.let_go(&mut act);
             return;
         }
-        if tick.is_multiple_of((THINK_EVERY / dt) as u64)
+        if tick.is_multiple_of(((THINK_EVERY / dt) as u64).max(1))
             && let Some(seen) = seen
         {
             self.think(game, seen, tick, &mut act);

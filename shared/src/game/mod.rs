@@ -16,6 +16,8 @@ pub use input::{Action, Input, SEATS};
 pub(crate) use state::sample_play;
 pub use state::{GameState, Phase, Play, Seat};
 
+use glam::DVec2;
+
 use crate::math::digest_of;
 use crate::physics::ball::{Instant, Support};
 use crate::physics::{EventKind, StateError, World};
@@ -28,6 +30,8 @@ const SERVE_PAUSE: f64 = 1.5;
 const START_PAUSE: f64 = 0.3;
 /// Seconds for which a ball may lie still, away from the plunger and with no button held, before it is served again.
 const STUCK_AFTER: f64 = 8.0;
+/// Seconds without a control or anything that counts after which a ball is served again, wherever it is.
+const QUIET_AFTER: f64 = 60.0;
 /// Slower than this share of the ball's radius a second it lies still.
 const STILL: f64 = 0.05;
 
@@ -38,19 +42,22 @@ pub struct Game {
     world: World,
     play: state::Play,
     events: Vec<GameEvent>,
+    /// The tick that is being played: events are stamped with it.
+    now: u64,
 }
 
 impl Game {
     /// A table with nobody at it.
     pub fn new(table: Arc<Table>) -> Self {
         let world = World::new(Arc::clone(&table.scene));
-        Self { table, world, play: state::Play::default(), events: Vec::with_capacity(64) }
+        Self { table, world, play: state::Play::default(), events: Vec::with_capacity(64), now: 0 }
     }
 
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
     pub fn step(&mut self, inputs: &[Input]) -> &[GameEvent] {
         self.events.clear();
         let tick = self.world.state().tick;
+        self.now = tick;
         // 1. What players do.
         for input in inputs.iter().filter(|input| input.tick == tick) {
             self.act(input.seat, input.action);
@@ -106,10 +113,8 @@ impl Game {
     pub fn is_at_start(&self) -> bool {
         match self.play.phase {
             Phase::Idle | Phase::Over => true,
-            Phase::Play { seat, ball, untouched, .. } => {
-                let first = self.play.seats.iter().position(|s| s.playing);
-                ball == 1 && untouched && first == Some(usize::from(seat))
-            }
+            // Whoever sat down before a seat whose turn it is would miss a ball.
+            Phase::Play { seat, ball, untouched, .. } => seat == 0 && ball == 1 && untouched,
         }
     }
 
@@ -142,6 +147,12 @@ impl Game {
     /// 1. An action of a seat. What is not theirs to do now has no effect.
     fn act(&mut self, seat: u8, action: Action) {
         let Some(place) = self.play.seats.get(usize::from(seat)).copied() else { return };
+        if let Phase::Play { seat: turn, quiet, .. } = &mut self.play.phase
+            && *turn == seat
+            && action.is_control()
+        {
+            *quiet = 0;
+        }
         match action {
             Action::Sit => {
                 if !place.taken {
@@ -211,7 +222,7 @@ impl Game {
         self.world.pull(None);
         self.world.clear_balls();
         let serve_in = self.ticks(pause);
-        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0 };
+        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0, quiet: 0 };
     }
 
     fn next_turn(&mut self) {
@@ -261,24 +272,27 @@ impl Game {
                 event.kind,
                 EventKind::Kicked { .. } | EventKind::Felled { .. } | EventKind::Passed { .. } | EventKind::Drained
             );
-            if let (Phase::Play { untouched, .. }, true) = (&mut self.play.phase, is_play) {
-                *untouched = false;
+            if let (Phase::Play { untouched, quiet, .. }, true) = (&mut self.play.phase, is_play) {
+                (*untouched, *quiet) = (false, 0);
             }
-            self.occasion(Occasion::Physics(event.kind), Some(event.position.as_vec2()));
+            if matches!(event.kind, EventKind::Escaped) {
+                self.serve_again();
+            }
+            self.occasion(Occasion::Physics(event.kind), Some(event.position));
         }
     }
 
     /// Runs the rules for the player whose turn it is.
-    fn occasion(&mut self, occasion: Occasion, position: Option<glam::Vec2>) {
+    fn occasion(&mut self, occasion: Occasion, position: Option<DVec2>) {
         let Phase::Play { seat, .. } = self.play.phase else { return };
-        let tick = self.world.state().tick;
+        let tick = self.now;
         let events = &mut self.events;
         let score = &mut self.play.seats[usize::from(seat)].score;
         rules::run(&self.table, occasion, score, &mut self.play.lights, &mut self.world, |effect| {
             let kind = match effect {
                 Effect::Points(points) => {
-                    let (x, y) = position.map_or((f32::NAN, f32::NAN), |p| (p.x, p.y));
-                    GameEventKind::Points { seat, points, place: (!x.is_nan()).then_some((x, y)) }
+                    let place = position.map(|place| (place.x as f32, place.y as f32));
+                    GameEventKind::Points { seat, points, place }
                 }
                 Effect::Message(place) => GameEventKind::Message { place },
             };
@@ -297,35 +311,40 @@ impl Game {
         }
     }
 
-    /// A ball that lies still where nobody can move it is taken out and served again.
+    /// A ball that lies still where nobody can move it, or to which nothing has happened for long, is served again.
     fn free_stuck_ball(&mut self) {
         let now = Instant::start_of(self.world.state().tick);
         let scene = &self.table.scene;
-        let slow = STILL * scene.ball_radius;
+        let (radius, slow) = (scene.ball_radius, STILL * scene.ball_radius);
         let state = self.world.state();
+        // In a cradle a ball lies still, too.
         let held = state.flippers.iter().any(|flipper| flipper.pressed);
-        let ready = |ball: &crate::physics::ball::Ball, place: glam::DVec2| match ball.support {
-            Support::Plunger(_) => true,
-            _ => scene.plungers.iter().any(|plunger| plunger.distance(0.0, place) < 2.0 * scene.ball_radius),
-        };
-        let is_still = !held
-            && !state.balls.is_empty()
-            && state.balls.iter().all(|ball| {
-                let (position, velocity) = ball.at(now, scene.tick_seconds);
-                velocity.length() < slow && !ready(ball, position)
-            });
-        let limit = self.ticks(STUCK_AFTER);
-        let Phase::Play { still, .. } = &mut self.play.phase else { return };
-        *still = if is_still { *still + 1 } else { 0 };
-        if *still >= limit {
-            *still = 0;
-            self.world.clear_balls();
-            self.world.serve(self.table.ball_start);
-            self.emit(GameEventKind::Rescued);
+        let (mut is_ready, mut is_still) = (state.balls.is_empty(), !held);
+        for ball in &state.balls {
+            let (position, velocity) = ball.at(now, scene.tick_seconds);
+            is_ready |= matches!(ball.support, Support::Plunger(_))
+                || scene.plungers.iter().any(|plunger| plunger.distance(0.0, position).abs() < 2.0 * radius);
+            is_still &= velocity.length() < slow;
+        }
+        let (still_limit, quiet_limit) = (self.ticks(STUCK_AFTER), self.ticks(QUIET_AFTER));
+        let Phase::Play { still, quiet, .. } = &mut self.play.phase else { return };
+        *still = if is_still && !is_ready { still.saturating_add(1) } else { 0 };
+        *quiet = if is_ready { 0 } else { quiet.saturating_add(1) };
+        if *still >= still_limit || *quiet >= quiet_limit {
+            self.serve_again();
         }
     }
 
+    /// The player gets the ball again that got lost through no fault of theirs.
+    fn serve_again(&mut self) {
+        let Phase::Play { serve_in: 0, still, quiet, .. } = &mut self.play.phase else { return };
+        (*still, *quiet) = (0, 0);
+        self.world.clear_balls();
+        self.world.serve(self.table.ball_start);
+        self.emit(GameEventKind::Rescued);
+    }
+
     fn emit(&mut self, kind: GameEventKind) {
-        self.events.push(GameEvent { tick: self.world.state().tick, kind });
+        self.events.push(GameEvent { tick: self.now, kind });
     }
 }

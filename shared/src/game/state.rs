@@ -6,6 +6,9 @@ use super::input::SEATS;
 use crate::physics::{StateError, WorldState};
 use crate::rules::Score;
 
+/// The most balls that a table's rules may give a player.
+pub(crate) const MOST_BALLS_A_GAME: u32 = 100;
+
 /// A place at the table.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Seat {
@@ -35,6 +38,8 @@ pub enum Phase {
         untouched: bool,
         /// Ticks for which it has lain still.
         still: u32,
+        /// Ticks since anything that counts has happened to it, or a control was worked.
+        quiet: u32,
     },
     /// A game has ended.
     Over,
@@ -63,6 +68,11 @@ impl Play {
             Phase::Play { seat, .. } if usize::from(seat) >= SEATS => {
                 Err(StateError::Count { what: "seats", found: usize::from(seat) + 1, expected: SEATS })
             }
+            Phase::Play { ball, .. } if ball > MOST_BALLS_A_GAME => Err(StateError::Count {
+                what: "balls played",
+                found: ball as usize,
+                expected: MOST_BALLS_A_GAME as usize,
+            }),
             _ => Ok(()),
         }
     }

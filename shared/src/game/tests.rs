@@ -360,7 +360,67 @@ fn a_state_with_a_turn_of_nobody_is_refused() {
     let mut game = started(1);
     let before = game.digest();
     let mut state = game.state();
-    state.play = super::sample_play(Phase::Play { seat: 9, ball: 1, serve_in: 0, untouched: false, still: 0 });
+    state.play =
+        super::sample_play(Phase::Play { seat: 9, ball: 1, serve_in: 0, untouched: false, still: 0, quiet: 0 });
     assert!(game.restore(state).is_err());
     assert_eq!(game.digest(), before);
+}
+
+/// Whoever sat down before the seat whose turn it was got one ball fewer.
+#[test]
+fn nobody_joins_before_the_seat_whose_turn_it_is() {
+    let mut game = started(2);
+    wait_for_ball(&mut game);
+    act(&mut game, 0, Action::Stand);
+    assert!(game.phase().has_turn(1));
+    act(&mut game, 0, Action::Sit);
+    assert!(!game.seats()[0].playing, "the next game is theirs");
+}
+
+#[test]
+fn events_bear_the_tick_that_was_played() {
+    let mut game = started(1);
+    wait_for_ball(&mut game);
+    for _ in 0..500 {
+        let tick = game.tick();
+        let input = Input { tick, seat: 0, action: Action::Flipper { right: false, pressed: tick.is_multiple_of(2) } };
+        assert!(game.step(&[input]).iter().all(|event| event.tick == tick), "tick {tick}");
+    }
+}
+
+#[test]
+fn a_ball_that_left_the_table_is_served_again() {
+    let mut game = started(1);
+    let turn = wait_for_ball(&mut game);
+    // Too fast for anything to stop it within the tick that it has.
+    place_ball(&mut game, DVec2::new(0.24, 1.079), DVec2::new(0.0, 90.0));
+    let events = wait(&mut game, 5);
+    assert!(events.contains(&GameEventKind::Rescued), "{events:?}");
+    assert_eq!(wait_for_ball(&mut game), turn);
+    assert_eq!(game.world().state().balls.len(), 1);
+}
+
+#[test]
+fn a_ball_to_which_nothing_happens_for_a_minute_is_served_again() {
+    let mut game = started(1);
+    wait_for_ball(&mut game);
+    act(&mut game, 0, Action::Flipper { right: false, pressed: true });
+    // In a cradle: on the raised flipper, in the corner at its pivot. A player may keep it there, but not for ever.
+    place_ball(&mut game, DVec2::new(0.165, 0.205), DVec2::ZERO);
+    let events = wait(&mut game, 59_000);
+    assert!(!events.contains(&GameEventKind::Rescued));
+    assert!(wait(&mut game, 2_000).contains(&GameEventKind::Rescued));
+}
+
+/// Golden: raise `PHYSICS_VERSION` with any change of it. The second number localises: it comes from the first ball.
+#[test]
+fn a_minute_of_the_bot_on_classic_is_what_it_always_was() {
+    let mut first_ball = None;
+    let game = play(1, 60_000, |game, _| {
+        if first_ball.is_none() && !matches!(game.phase(), Phase::Play { ball: 1, .. }) && game.tick() > 1 {
+            first_ball = Some((game.tick(), game.digest()));
+        }
+    });
+    assert_eq!(first_ball, Some((9230, 0x8e7e_2afe_3fcb_6ec9)), "tick and digest when the first ball was lost");
+    assert_eq!(game.digest(), 0x6d00_d255_79f9_26a0, "after a minute");
 }

@@ -9,7 +9,7 @@ use super::constants::MOST_IMPACTS_PER_TICK;
 use super::contact::{Response, Surface, respond, settle};
 use super::flipper::FlipperRest;
 use super::motion::Next;
-use super::movers::{BallInTick, first_impact};
+use super::movers::{BallInTick, Mover, first_impact};
 use super::scene::{Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
@@ -92,7 +92,8 @@ impl World {
         let mut first = None;
         for index in 0..self.flipper_motions.len() {
             let Some(flipper) = self.moving_flipper(index) else { continue };
-            let travel = (subject.flight.velocity_at(elapsed).length() + 1.0) * dt;
+            let flight = &subject.flight;
+            let travel = (flight.velocity_at(elapsed).length() + flight.acceleration.length() * dt) * dt;
             let distance = (subject.flight.position_at(elapsed) - flipper.spec.pivot).length();
             if subject.support == Support::Flipper(index as u16)
                 || distance > flipper.spec.reach() + self.scene.ball_radius + travel
@@ -134,7 +135,7 @@ impl World {
         let t = next.time();
         let flight = self.state.balls[ball].flight;
         let position = flight.position_at(t);
-        if self.is_outside(position) {
+        if !self.scene.is_inside(position) {
             self.take_out(ball, offset, position, EventKind::Escaped);
             return;
         }
@@ -183,7 +184,8 @@ impl World {
             Role::Target { threshold, .. } if speed >= threshold => kind = EventKind::Felled { element, speed },
             _ => {}
         }
-        if speed > scene.rest_speed {
+        // Contact at rest is no news, but whatever acts always is.
+        if speed > scene.rest_speed || !matches!(kind, EventKind::Touched { .. }) {
             self.emit(ball, offset, position, kind);
         }
         self.refresh_spin(ball, position, velocity);
@@ -236,7 +238,7 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        let surface = super::movers::Mover::surface(&flipper, offset, position, normal, self.scene.ball_radius);
+        let surface = flipper.surface(offset, position, normal, self.scene.ball_radius);
         let contact = position - normal * self.scene.ball_radius;
         let lever = flipper.lever(contact, normal);
         let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
@@ -258,7 +260,7 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        let surface = super::movers::Mover::surface(&plunger, offset, position, normal, self.scene.ball_radius);
+        let surface = plunger.surface(offset, position, normal, self.scene.ball_radius);
         let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
         let after = self.push_by(ball, offset, position, velocity, &surface, element);
         motion.pull = motion.pull_at(offset);

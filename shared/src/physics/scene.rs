@@ -111,3 +111,10 @@ pub struct Scene {
     /// How many targets can fall.
     pub targets: u16,
 }
+
+impl Scene {
+    /// Whether a ball's centre is on the table, or beside it by its radius at the most.
+    pub fn is_inside(&self, position: DVec2) -> bool {
+        Bounds { low: DVec2::ZERO, high: self.size }.grown(self.ball_radius).contains(position)
+    }
+}

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use super::ball::{Ball, Support};
+use super::ball::{Ball, Instant, Support};
 use super::constants::MOST_HEIGHTS_PER_TICK;
 use super::flipper::FlipperState;
 use super::plunger::PlungerState;
@@ -16,6 +16,11 @@ use crate::physics::flipper::FlipperRest;
 pub const MOST_BALLS: usize = 16;
 /// Most flippers, plungers or targets on a table.
 pub const MOST_PARTS: usize = 64;
+
+/// Most ticks of a world: beyond, a tick and its neighbour are the same f64.
+const MOST_TICKS: u64 = 1 << 53;
+/// Most ticks of one flight: 35 years at 1 kHz, with 13 bits left for a part of a tick.
+const MOST_FLIGHT_TICKS: u64 = 1 << 40;
 
 /// A target that can fall.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -120,14 +125,23 @@ impl WorldState {
         for (index, ball) in self.balls.iter().enumerate() {
             self.check_ball(scene, index, ball)?;
         }
-        for (index, flipper) in self.flippers.iter().enumerate() {
-            if !(flipper.swing.is_finite() && flipper.speed.is_finite() && flipper.coil_time.is_finite()) {
+        // A moment whose distance from another has no digits left for a part of a tick is no moment.
+        if self.tick > MOST_TICKS {
+            return Err(StateError::Number { what: "tick", index: 0 });
+        }
+        let farthest = MOST_HEIGHTS_PER_TICK * scene.size.y;
+        let is_slow = |speed: f64| speed.abs() * scene.tick_seconds <= farthest;
+        for (index, (flipper, spec)) in self.flippers.iter().zip(&scene.flippers).enumerate() {
+            let in_stroke = (-spec.stroke..=2.0 * spec.stroke).contains(&flipper.swing);
+            let coil_is_possible = (0.0..=MOST_TICKS as f64).contains(&flipper.coil_time);
+            if !(in_stroke && coil_is_possible && is_slow(flipper.speed * spec.reach())) {
                 return Err(StateError::Number { what: "flipper", index });
             }
         }
-        for (index, plunger) in self.plungers.iter().enumerate() {
+        for (index, (plunger, spec)) in self.plungers.iter().zip(&scene.plungers).enumerate() {
+            let in_stroke = (-spec.stroke..=2.0 * spec.stroke).contains(&plunger.pull);
             let hand = plunger.hand.unwrap_or(0.0);
-            if !(plunger.pull.is_finite() && plunger.speed.is_finite() && (0.0..=1.0).contains(&hand)) {
+            if !(in_stroke && is_slow(plunger.speed) && (0.0..=1.0).contains(&hand)) {
                 return Err(StateError::Number { what: "plunger", index });
             }
         }
@@ -144,6 +158,11 @@ impl WorldState {
         let is_slow = ball.flight.velocity.abs().max_element() * dt <= farthest
             && ball.flight.acceleration.abs().max_element() * dt * dt <= farthest;
         if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number && is_slow) {
+            return Err(number);
+        }
+        // No world has a ball beside its table, and none that has flown for years.
+        let (position, _) = ball.at(Instant::start_of(self.tick), dt);
+        if !scene.is_inside(position) || self.tick - start.tick > MOST_FLIGHT_TICKS {
             return Err(number);
         }
         let collider = |i: u16| scene.colliders.get(usize::from(i));

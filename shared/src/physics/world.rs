@@ -13,7 +13,6 @@ use super::motion::{Next, next_event};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
 use super::scene::{Presence, Scene};
-use super::shapes::Bounds;
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
 /// Something that happened to a ball.
@@ -145,7 +144,7 @@ impl World {
 
     /// Puts a ball into play, at rest; `None` if there are too many already.
     pub fn serve(&mut self, position: DVec2) -> Option<u32> {
-        if self.state.balls.len() == MOST_BALLS {
+        if self.state.balls.len() >= MOST_BALLS {
             return None;
         }
         let id = self.state.served;
@@ -308,7 +307,7 @@ impl World {
         for index in (0..self.state.balls.len()).rev() {
             let ball = self.state.balls[index];
             let (position, _) = ball.at(now, self.scene.tick_seconds);
-            if self.is_outside(position) {
+            if !self.scene.is_inside(position) {
                 self.events.push(Event { at: now, ball: ball.id, position, kind: EventKind::Escaped });
                 self.state.balls.remove(index);
                 self.next.remove(index);
@@ -350,12 +349,6 @@ impl World {
         }
         let offset = next.time() - elapsed;
         Some((if offset > 0.0 { offset } else { 0.0 }, next))
-    }
-
-    /// Whether a ball's centre is where no ball should be.
-    pub(super) fn is_outside(&self, position: DVec2) -> bool {
-        let table = Bounds { low: DVec2::ZERO, high: self.scene.size };
-        !table.grown(self.scene.ball_radius).contains(position)
     }
 
     pub(super) fn moving_flipper(&self, index: usize) -> Option<MovingFlipper<'_>> {

@@ -138,6 +138,12 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
     frames.extend(acts);
     frames.extend(others.iter().map(encode));
     frames.extend(from_server.iter().map(encode));
+    // What the samples above have no place for: the other phases, and nothing where something may be.
+    frames.extend([Phase::Idle, Phase::Over].iter().map(encode));
+    frames.push(encode(&GameEventKind::Points { seat: 0, points: 1, place: None }));
+    frames.push(encode(&ServerMessage::You { seat: None, line: None }));
+    frames.push(encode(&PlungerState::default()));
+    frames.push(encode(&Ball { past: None, ..sample_snapshot().state.world.balls[0] }));
     frames
 }
 
@@ -183,7 +189,7 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::Rescued,
         GameEventKind::Over,
     ];
-    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4 };
+    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, quiet: 5 };
     let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
     Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
 }

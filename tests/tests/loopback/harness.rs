@@ -13,7 +13,7 @@ use shared::protocol::{
 };
 use shared::table::Table;
 use starball_server::{Account, Config};
-use tokio::net::{TcpListener, TcpStream};
+use tokio::net::{TcpListener, TcpSocket, TcpStream};
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
 use tokio_util::codec::{Framed, LengthDelimitedCodec};
@@ -37,6 +37,8 @@ pub(crate) fn classic() -> Arc<Table> {
 pub(crate) fn quiet() -> Config {
     let mut config = Config::new(classic());
     config.attract = false;
+    // These clients say nothing while they wait.
+    config.silent_time = Duration::from_secs(120);
     config
 }
 
@@ -64,7 +66,17 @@ pub(crate) struct Wire(pub(crate) Framed<TcpStream, LengthDelimitedCodec>);
 
 impl Wire {
     pub(crate) async fn open(server: &Server) -> Self {
-        let stream = TcpStream::connect(server.address).await.expect("connects");
+        Self::over(TcpStream::connect(server.address).await.expect("connects"))
+    }
+
+    /// The same, with hardly any room for what is not read.
+    pub(crate) async fn open_narrow(server: &Server) -> Self {
+        let socket = TcpSocket::new_v4().expect("a socket");
+        socket.set_recv_buffer_size(4096).expect("a TCP option");
+        Self::over(socket.connect(server.address).await.expect("connects"))
+    }
+
+    fn over(stream: TcpStream) -> Self {
         stream.set_nodelay(true).expect("a TCP option");
         let codec = LengthDelimitedCodec::builder()
             .length_field_type::<u32>()
@@ -117,15 +129,14 @@ pub(crate) struct Client {
 
 impl Client {
     pub(crate) async fn play(server: &Server, name: &str) -> Self {
-        Self::join(server, name, Role::Play).await
+        Self::join(Wire::open(server).await, name, Role::Play).await
     }
 
     pub(crate) async fn watch(server: &Server, name: &str) -> Self {
-        Self::join(server, name, Role::Watch).await
+        Self::join(Wire::open(server).await, name, Role::Watch).await
     }
 
-    async fn join(server: &Server, name: &str, role: Role) -> Self {
-        let mut wire = Wire::open(server).await;
+    pub(crate) async fn join(mut wire: Wire, name: &str, role: Role) -> Self {
         wire.send(encode_greeting(&Hello { name: name.to_owned(), role })).await;
         let frame = wire.receive().await.expect("a welcome");
         let welcome = match decode_greeting(&frame) {

@@ -1,7 +1,9 @@
 //! Nonsense, floods and silence: they cost their sender the connection and nobody else anything.
 
-use shared::game::Action;
-use shared::protocol::{ClientMessage, Hello, Role, encode, encode_greeting};
+use std::time::{Duration, Instant};
+
+use shared::game::{Action, Phase};
+use shared::protocol::{ClientMessage, Hello, Role, ServerMessage, encode, encode_greeting};
 use tokio::io::AsyncWriteExt;
 
 use crate::harness::{Client, Server, Wire, quiet};
@@ -58,15 +60,58 @@ async fn a_flood_of_controls_is_bounded_and_hurts_nobody() {
     let mut ann = Client::watch(&server, "Ann").await;
     let mut eve = Client::play(&server, "Eve").await;
     eve.until("she is seated", |eve| eve.seat == Some(0)).await;
-    for n in 0..5_000_u64 {
+    let (began, before) = (Instant::now(), ann.snapshot().await.state.world.tick);
+    for n in 0..20_000_u64 {
         let action = Action::Flipper { right: n % 3 == 0, pressed: n % 2 == 0 };
         eve.say(ClientMessage::Act { tick: u64::MAX - n, action }).await;
     }
-    let before = ann.snapshot().await.state.world.tick;
     for _ in 0..30 {
         ann.snapshot().await;
     }
-    assert!(ann.game.tick() >= before + 490, "the world went on");
+    // World time keeps up with the clock: what was given up for lateness would be missing.
+    let (ticks, milliseconds) = (ann.game.tick() - before, began.elapsed().as_millis() as u64);
+    assert!(ticks + 100 >= milliseconds / 2, "{ticks} ticks in {milliseconds} ms");
+    let account = server.stop().await;
+    assert!(account.controls < 10_000, "most were dropped: {account}");
+}
+
+#[tokio::test]
+async fn a_flood_of_leaves_does_not_drown_the_others() {
+    let server = Server::start(quiet()).await;
+    let mut ann = Client::watch(&server, "Ann").await;
+    let mut eve = Client::watch(&server, "Eve").await;
+    ann.until("both are there", |ann| ann.roster.spectators == 2).await;
+    for _ in 0..5_000 {
+        eve.say(ClientMessage::Play).await;
+        eve.say(ClientMessage::Leave).await;
+    }
+    let (mut rosters, mut snapshots) = (0, 0);
+    while snapshots < 60 {
+        match ann.hear().await {
+            ServerMessage::Snapshot(_) => snapshots += 1,
+            ServerMessage::Roster(_) => rosters += 1,
+            _ => {}
+        }
+    }
+    assert!(rosters <= snapshots + 1, "{rosters} rosters with {snapshots} snapshots");
+    server.stop().await;
+}
+
+#[tokio::test]
+async fn a_player_who_says_nothing_loses_the_seat() {
+    let mut config = quiet();
+    config.silent_time = Duration::from_millis(500);
+    let server = Server::start(config).await;
+    // Eve's machine sleeps with the connection open; Ann's pings, as every client does.
+    let mut eve = Client::play(&server, "Eve").await;
+    eve.until("she is seated", |eve| eve.seat == Some(0)).await;
+    let mut ann = Client::watch(&server, "Ann").await;
+    ann.until("Eve is there", |ann| ann.roster.seats[0].as_deref() == Some("Eve")).await;
+    while ann.roster.seats[0].is_some() {
+        ann.say(ClientMessage::Ping { nonce: 0 }).await;
+        ann.snapshot().await;
+    }
+    assert_eq!(ann.game.phase(), Phase::Over);
     server.stop().await;
 }
 

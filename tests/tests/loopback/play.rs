@@ -1,7 +1,7 @@
 //! One player: from the first key to game over.
 
 use shared::game::{Action, Input, Phase};
-use shared::protocol::{ClientMessage, ServerMessage};
+use shared::protocol::{ClientMessage, ServerMessage, TAP_TICKS};
 
 use crate::harness::{Client, Server, quiet};
 
@@ -21,7 +21,7 @@ async fn a_player_gets_the_first_seat_and_a_ball_at_once() {
 }
 
 #[tokio::test]
-async fn a_button_moves_the_flipper_and_a_tap_is_no_full_stroke_of_both() {
+async fn a_button_moves_its_flipper_and_only_that() {
     let server = Server::start(quiet()).await;
     let mut ann = Client::play(&server, "Ann").await;
     ann.until("the ball is served", ball_is_served).await;
@@ -56,11 +56,12 @@ async fn inputs_act_in_the_tick_they_are_stamped_with() {
     ann.until("the ball is served", ball_is_served).await;
     // An own copy of the game, stepped from this snapshot with the same input at the same tick, must stay equal.
     let start = ann.snapshot().await;
-    let press = start.state.world.tick + 120;
+    let press = start.state.world.tick + 240;
     let action = Action::Flipper { right: true, pressed: true };
     ann.say(ClientMessage::Act { tick: press, action }).await;
     let mut copy = ann.game.clone();
     copy.restore(start.state).expect("a valid state");
+    let mut compared = 0;
     while copy.tick() < press + 100 {
         copy.step(&[Input { tick: press, seat: 0, action }]);
         if copy.tick() % 50 == 0 {
@@ -71,9 +72,26 @@ async fn inputs_act_in_the_tick_they_are_stamped_with() {
         }
         if ann.game.tick() == copy.tick() {
             assert_eq!(ann.game.digest(), copy.digest(), "tick {}", copy.tick());
+            compared += 1;
         }
     }
+    assert!(compared >= 10, "only {compared} snapshots were compared");
     assert!(copy.world().state().flippers[1].swing > 0.8, "the flipper did rise");
+    server.stop().await;
+}
+
+/// Press and release both acted at once, in one tick, and the flipper did not move.
+#[tokio::test]
+async fn a_tap_that_comes_late_still_fires_the_flipper() {
+    let server = Server::start(quiet()).await;
+    let mut ann = Client::play(&server, "Ann").await;
+    ann.until("the ball is served", ball_is_served).await;
+    let past = ann.game.tick() - 100;
+    for (tick, pressed) in [(past, true), (past + TAP_TICKS, false)] {
+        ann.say(ClientMessage::Act { tick, action: Action::Flipper { right: true, pressed } }).await;
+    }
+    ann.until("the flipper has moved", |ann| ann.game.world().state().flippers[1].swing > 0.4).await;
+    ann.until("it is down again", |ann| ann.game.world().state().flippers[1].swing == 0.0).await;
     server.stop().await;
 }
 

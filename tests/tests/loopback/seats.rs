@@ -13,8 +13,8 @@ use crate::harness::{Client, Server, quiet};
 fn ball_eater() -> Config {
     let (_, source) = SHIPPED[0];
     let source = source.replace("start: (0.494, 0.1145)", "start: (0.237, 0.1)");
-    let mut config = Config::new(Arc::new(Table::parse("eater", &source).expect("valid")));
-    config.attract = false;
+    let mut config = quiet();
+    config.table = Arc::new(Table::parse("eater", &source).expect("valid"));
     config
 }
 

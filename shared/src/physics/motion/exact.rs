@@ -30,19 +30,21 @@ impl Next {
 }
 
 /// Seconds of flight that one piece covers: a time in which neither the speed nor the acceleration carries the ball
-/// farther than half the search length.
-fn piece(flight: &Flight, height: f64) -> f64 {
-    let half = 0.5 * SEARCH_LENGTH * height;
+/// farther than half the search length; a sixteenth of a tick at the least, so that no speed makes a tick endless.
+fn piece(flight: &Flight, scene: &Scene) -> f64 {
+    let half = 0.5 * SEARCH_LENGTH * scene.size.y;
     let by_speed = half / flight.velocity.length();
     let by_pull = (2.0 * half / flight.acceleration.length()).sqrt();
-    if by_speed < by_pull { by_speed } else { by_pull }
+    let piece = if by_speed < by_pull { by_speed } else { by_pull };
+    let least = scene.tick_seconds / 16.0;
+    if piece < least { least } else { piece }
 }
 
 /// The next event of `ball` among the colliders that are `present`, at `now` seconds since its flight's start or
 /// later, searched to the end of the piece that contains `until`.
 pub fn next_event(scene: &Scene, ball: &Ball, present: impl Fn(&Collider) -> bool, now: f64, until: f64) -> Next {
     let flight = &ball.flight;
-    let piece = piece(flight, scene.size.y);
+    let piece = piece(flight, scene);
     if !piece.is_finite() {
         // At rest: pieces would be endless, and nothing comes to it that is not its own event.
         return match immediate(scene, ball, &present) {

@@ -176,10 +176,32 @@ fn a_state_that_does_not_fit_is_refused_and_changes_nothing() {
     spoil(&|state| state.balls[0].support = Support::Line(60_000));
     spoil(&|state| state.balls[0].support = Support::Flipper(2));
     spoil(&|state| state.flippers[0].swing = f64::NAN);
+    // Broke: flippers and plungers that throw a ball at such speeds.
+    spoil(&|state| state.flippers[0].swing = 1e300);
+    spoil(&|state| state.flippers[0].speed = -1e300);
+    spoil(&|state| state.flippers[0].coil_time = -1e300);
+    spoil(&|state| state.plungers[0].pull = 1e300);
+    spoil(&|state| state.plungers[0].speed = -1e300);
+    spoil(&|state| state.balls[0].flight.position.y = 1e6);
+    // Broke: ticks so far apart that a part of one has no digits left.
+    spoil(&|state| state.tick = u64::MAX);
+    spoil(&|state| state.tick = 1 << 50);
     spoil(&|state| state.plungers[0].hand = Some(2.0));
     for state in bad {
         assert!(world.restore(state.clone()).is_err(), "accepted {state:?}");
         assert_eq!(digest_of(&world.state), before);
     }
     assert_eq!(world.restore(good), Ok(()));
+}
+
+/// The fastest ball that a state may have must not keep a step busy.
+#[test]
+fn the_fastest_state_that_is_accepted_is_stepped() {
+    let mut world = World::new(classic().scene.clone());
+    super::launch(&mut world, DVec2::new(0.24, 0.5), DVec2::new(3e4, -7e4));
+    let mut state = world.state().clone();
+    state.flippers[0].pressed = true;
+    assert_eq!(world.restore(state), Ok(()));
+    run(&mut world, 1000);
+    assert!(world.state().balls.iter().all(|ball| ball.flight.is_finite()));
 }
