@@ -41,6 +41,9 @@ enum State {
     Lost { was_live: bool, reason: String },
 }
 
+/// Messages that one frame takes in at the most: four seconds' worth.
+const MOST_HEARD: usize = 256;
+
 /// The window's program.
 pub(crate) struct App {
     options: Options,
@@ -155,7 +158,8 @@ impl App {
 
     /// 1. Takes in everything that has come.
     fn hear(&mut self) {
-        loop {
+        // A server that floods must not keep a frame from being drawn.
+        for _ in 0..MOST_HEARD {
             let incoming = match &mut self.state {
                 State::Connecting(connection, _) | State::Live(connection, _) => connection.poll(),
                 State::Lost { .. } => None,

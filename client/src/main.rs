@@ -25,7 +25,7 @@ mod timing;
 mod view;
 
 use std::cell::Cell;
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -106,7 +106,7 @@ fn in_window(options: Options) -> Result<(), String> {
         outcome.set(Some(app.end()));
     });
     if let (true, Some(report)) = (prints_report, report.take()) {
-        println!("{report}");
+        say(&report);
     }
     Ok(())
 }
@@ -119,14 +119,19 @@ fn first_shipped() -> Result<Arc<Table>, String> {
 /// Where there is no display, the bot plays for whoever watches from elsewhere.
 fn without_window(problem: &str, table: Arc<Table>) -> Result<(), String> {
     let account = embedded::serve_alone(table, |address| {
-        println!(
+        say(&format_args!(
             "{problem}: the bot plays at {address}, for this machine alone; to watch from another one, run \
              `starball-server --listen 0.0.0.0:7777` here and `starball watch --connect {}:7777` there",
             own_address()
-        );
+        ));
     });
-    println!("{}", account.map_err(|error| error.to_string())?);
+    say(&account.map_err(|error| error.to_string())?);
     Ok(())
+}
+
+/// Prints a line. Whoever started the game may have closed its output; that is no reason to end.
+fn say(line: &dyn std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }
 
 /// This machine's address as others see it, or a word that stands for it. Connecting a UDP socket sends nothing; it

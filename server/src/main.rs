@@ -1,6 +1,6 @@
 //! The headless server's command line: `starball-server` serves, `starball-server simulate` plays without network.
 
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -83,7 +83,7 @@ fn main() -> ExitCode {
 fn simulate(arguments: &Simulate) -> Result<(), String> {
     let table = load_table(&arguments.table)?;
     let simulation = simulate::Simulation { seconds: arguments.seconds, bot: arguments.bot, seed: arguments.seed };
-    println!("{}", simulate::run(&table, simulation));
+    say(&simulate::run(&table, simulation));
     Ok(())
 }
 
@@ -107,9 +107,9 @@ fn serve(arguments: &Serve) -> Result<(), String> {
             .map_err(|error| format!("cannot listen on {:?} (ADDRESS:PORT): {error}", arguments.listen))?;
         let address = listener.local_addr().map_err(|error| format!("cannot tell the address: {error}"))?;
         let shutdown = shutdown_signal().map_err(|error| format!("cannot listen for signals: {error}"))?;
-        println!("listening on {address}");
+        say(&format_args!("listening on {address}"));
         let account = starball_server::run(listener, config, shutdown).await.map_err(|error| error.to_string())?;
-        println!("{account}");
+        say(&account);
         Ok(())
     })
 }
@@ -136,4 +136,9 @@ fn shutdown_signal() -> std::io::Result<impl Future<Output = ()>> {
             std::future::pending::<()>().await;
         }
     })
+}
+
+/// Prints a line. Whoever started the server may have closed its output; that is no reason to end.
+fn say(line: &dyn std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{line}");
 }

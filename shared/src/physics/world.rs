@@ -319,10 +319,11 @@ impl World {
     pub(super) fn forget_nexts(&mut self, now: Instant) {
         for (ball, next) in self.state.balls.iter_mut().zip(&mut self.next) {
             *next = None;
-            // What a flight that begins right now touches is not past.
-            let t = now.since(ball.flight.start, self.scene.tick_seconds);
-            if t > 0.0 {
-                ball.past = Some((t, u16::MAX));
+            // What happens at `now` itself is not past: neither what a flight that begins right now touches, nor an
+            // impact at the very instant of the change.
+            let before = now.since(ball.flight.start, self.scene.tick_seconds).next_down();
+            if before >= 0.0 && ball.past.is_none_or(|(past, _)| past < before) {
+                ball.past = Some((before, u16::MAX));
             }
         }
     }
