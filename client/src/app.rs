@@ -153,7 +153,11 @@ impl App {
             false
         };
         tracing::warn!("{error}");
-        self.state = State::Lost { was_live, reason: headline.to_owned() };
+        let reason = match &self.options.goal {
+            Goal::Play(address) | Goal::Watch(address) => format!("{headline}: {address}"),
+            Goal::Own(_) => headline.to_owned(),
+        };
+        self.state = State::Lost { was_live, reason };
     }
 
     /// 1. Takes in everything that has come.

@@ -121,7 +121,8 @@ fn without_window(problem: &str, table: Arc<Table>) -> Result<(), String> {
     let account = embedded::serve_alone(table, |address| {
         say(&format_args!(
             "{problem}: the bot plays at {address}, for this machine alone; to watch from another one, run \
-             `starball-server --listen 0.0.0.0:7777` here and `starball watch --connect {}:7777` there",
+             `cargo run --release -p starball-server -- --listen 0.0.0.0:7777` here and `cargo run --release -p \
+             starball-client -- watch --connect {}:7777` there",
             own_address()
         ));
     });

@@ -42,7 +42,7 @@ pub(crate) enum NetError {
     #[error("cannot connect to {address}: {error}")]
     Connect { address: String, error: std::io::Error },
     /// Nobody answers.
-    #[error("{address} does not answer")]
+    #[error("{address} does not answer as a Starball server does")]
     Timeout { address: String },
     /// The connection broke.
     #[error("the connection broke: {0}")]

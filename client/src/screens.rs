@@ -27,6 +27,9 @@ const TITLE: (f64, f64) = (6.0, 14.0);
 /// Seconds for which a blinking line is there, and for which it is not.
 const BLINK: (f64, f64) = (0.9, 0.35);
 
+/// Seconds for which each of two lines that take turns is there.
+const EACH_LINE: f64 = 1.6;
+
 /// While there is no answer yet.
 pub(crate) fn connecting(address: &str) -> Words {
     Words {
@@ -70,7 +73,7 @@ enum Standing {
     /// In line, at that place.
     InLine(u16),
     /// Seated; the game is over. `won`: against somebody, with more points.
-    Over { won: bool },
+    Over { won: bool, points: u64 },
     /// It is the person's turn, and the ball waits for the plunger.
     Plunger,
     /// It is the person's turn.
@@ -109,8 +112,9 @@ impl Standing {
                 let (own, others): (Vec<_>, Vec<_>) =
                     (0..).zip(game.seats()).filter(|(_, other)| other.playing).partition(|(place, _)| *place == seat);
                 let points = |seats: Vec<(u8, &Seat)>| seats.iter().map(|(_, seat)| seat.score.points).max();
-                let won = points(others).is_some_and(|others| points(own) > Some(others));
-                Self::Over { won }
+                let own = points(own);
+                let won = points(others).is_some_and(|others| own > Some(others));
+                Self::Over { won, points: own.unwrap_or(0) }
             }
         }
     }
@@ -122,8 +126,8 @@ impl Standing {
             Self::Watching { can_join: false } => "WATCHING".to_owned(),
             Self::InLine(1) => "YOU ARE NEXT".to_owned(),
             Self::InLine(place) => format!("IN LINE: {place}"),
-            Self::Over { won: true } => "YOU WIN".to_owned(),
-            Self::Over { won: false } => "GAME OVER".to_owned(),
+            Self::Over { won: true, .. } => "YOU WIN".to_owned(),
+            Self::Over { won: false, .. } => "GAME OVER".to_owned(),
             Self::Plunger => "HOLD SPACE, LET GO".to_owned(),
             Self::Turn => "SHOOT".to_owned(),
             Self::Waiting(name) => format!("{name} PLAYS"),
@@ -151,8 +155,11 @@ impl Standing {
         };
         match self {
             Self::Attract if now % TITLE.1 < TITLE.0 => ("STARBALL".to_owned(), blinks("PRESS ENTER TO PLAY")),
-            Self::Over { won: true } => ("YOU WIN".to_owned(), blinks("ENTER: PLAY AGAIN")),
-            Self::Over { won: false } => ("GAME OVER".to_owned(), blinks("ENTER: PLAY AGAIN")),
+            Self::Over { won, points } => {
+                let turn = now % (2.0 * EACH_LINE) < EACH_LINE;
+                let line = if turn { format!("{points} POINTS") } else { "ENTER: PLAY AGAIN".to_owned() };
+                (if *won { "YOU WIN" } else { "GAME OVER" }.to_owned(), line)
+            }
             _ => Default::default(),
         }
     }

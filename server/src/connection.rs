@@ -88,7 +88,7 @@ pub(crate) async fn serve(
         },
         _ => "the welcome could not be sent".to_owned(),
     };
-    tracing::info!(client, "left: {reason}");
+    tracing::info!(client, name = hello.name, "left: {reason}");
     // The room may have ended first: then there is nobody to tell.
     let _ = commands.send(Command::Left { client }).await;
 }
@@ -154,7 +154,7 @@ async fn write_frames(
             biased;
             frame = direct_frames.recv() => match frame {
                 Some(frame) => frame,
-                None => return close(writer, "the room let it go").await,
+                None => return close(writer, "its session is over").await,
             },
             frame = shared_frames.recv() => match frame {
                 Ok(frame) => frame,

@@ -68,6 +68,7 @@ impl Lobby {
             Some(SessionState::Seated(seat)) if !game.is_playing => vec![(seat, Action::Start)],
             Some(SessionState::Watching) => {
                 self.line.push_back(id);
+                tracing::debug!(client = id, "gets in line");
                 self.set_state(id, SessionState::InLine);
                 self.fill_seats(game)
             }
@@ -84,6 +85,7 @@ impl Lobby {
         self.clients.entry(id).and_modify(|client| client.is_stale = true);
         match state {
             SessionState::Seated(seat) => {
+                tracing::info!("{} leaves seat {}", self.name_of(seat), seat + 1);
                 self.seats[usize::from(seat)] = None;
                 let mut deeds = vec![(seat, Action::Stand)];
                 deeds.extend(self.fill_seats(game));
@@ -117,6 +119,7 @@ impl Lobby {
             let Some(seat) = self.seats.iter().position(Option::is_none) else { break };
             self.line.pop_front();
             self.seats[seat] = Some(Sitter::Client(next));
+            tracing::info!("{} takes seat {}", self.name_of(seat as u8), seat + 1);
             self.set_state(next, SessionState::Seated(seat as u8));
             deeds.push((seat as u8, Action::Sit));
             if alone {

@@ -18,6 +18,9 @@ struct Arguments {
     serve: Serve,
 }
 
+/// What would be right for `--listen`.
+const LISTEN_HINT: &str = "127.0.0.1:7777 is for this machine, 0.0.0.0:7777 for all, port 0 takes a free one";
+
 #[derive(Debug, Subcommand)]
 enum Command {
     /// Plays a table without network, as fast as possible, and prints the outcome as one line of JSON.
@@ -39,8 +42,8 @@ struct Serve {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Most clients at once.
-    #[arg(long, default_value_t = 256)]
-    most_connections: usize,
+    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    most_connections: u32,
 }
 
 #[derive(Debug, Args)]
@@ -83,8 +86,11 @@ fn main() -> ExitCode {
 fn simulate(arguments: &Simulate) -> Result<(), String> {
     let table = load_table(&arguments.table)?;
     let simulation = simulate::Simulation { seconds: arguments.seconds, bot: arguments.bot, seed: arguments.seed };
-    say(&simulate::run(&table, simulation));
-    Ok(())
+    match writeln!(std::io::stdout(), "{}", simulate::run(&table, simulation)) {
+        // Whoever reads has enough.
+        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
+        written => written.map_err(|error| format!("cannot print the outcome: {error}")),
+    }
 }
 
 fn serve(arguments: &Serve) -> Result<(), String> {
@@ -99,12 +105,12 @@ fn serve(arguments: &Serve) -> Result<(), String> {
     let mut config = Config::new(table);
     config.attract = !arguments.no_bot;
     config.seed = arguments.seed;
-    config.most_connections = arguments.most_connections;
+    config.most_connections = arguments.most_connections as usize;
     let runtime = tokio::runtime::Runtime::new().map_err(|error| format!("cannot start the runtime: {error}"))?;
     runtime.block_on(async {
         let listener = TcpListener::bind(&arguments.listen)
             .await
-            .map_err(|error| format!("cannot listen on {:?} (ADDRESS:PORT): {error}", arguments.listen))?;
+            .map_err(|error| format!("cannot listen on {:?}: {error}; {LISTEN_HINT}", arguments.listen))?;
         let address = listener.local_addr().map_err(|error| format!("cannot tell the address: {error}"))?;
         let shutdown = shutdown_signal().map_err(|error| format!("cannot listen for signals: {error}"))?;
         say(&format_args!("listening on {address}"));

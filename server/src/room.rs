@@ -333,7 +333,8 @@ impl Room {
             GameEventKind::Lost { seat } => {
                 tracing::info!("{} lost a ball at {} points", self.lobby.name_of(seat), points(seat));
             }
-            GameEventKind::Over => {
+            // A game that ends because another one begins in the same tick was nobody's: the bot made room.
+            GameEventKind::Over if matches!(self.game.phase(), Phase::Over) => {
                 for seat in (0..SEATS as u8).filter(|&seat| self.game.seats()[usize::from(seat)].playing) {
                     tracing::info!("game over: {} has {} points", self.lobby.name_of(seat), points(seat));
                 }

@@ -134,6 +134,7 @@ impl Writer<'_> {
         if !hud.queue.is_empty() {
             lines.push(("NEXT IN LINE".to_owned(), tint(AMBER_DIM, 1.0)));
         }
+        let heading = lines.len();
         let waiting = hud.queue.iter().zip(1..).map(|(name, place)| (format!("{place} {name}"), tint(AMBER, 1.0)));
         lines.extend(waiting);
         // The last line needs no space below it.
@@ -142,11 +143,15 @@ impl Writer<'_> {
             let text = format!("{} WATCHING, {} IN LINE", hud.spectators, hud.queue.len());
             lines = vec![(text, tint(ICE, 0.75))];
         }
-        let hidden = lines.len().saturating_sub(room);
-        if hidden > 0 && room > 0 {
-            // The last line says how many more there are.
+        if lines.len() > room && room > 0 && !hud.queue.is_empty() {
+            // The last line says how many of those in line have no room.
             lines.truncate(room - 1);
-            lines.push((format!("+ {} MORE", hidden + 1), tint(AMBER_DIM, 1.0)));
+            let names = lines.len().saturating_sub(heading);
+            if names == 0 {
+                lines.truncate(heading - 1);
+            }
+            let plus = if names == 0 { "" } else { "+ " };
+            lines.push((format!("{plus}{} IN LINE", hud.queue.len() - names), tint(AMBER_DIM, 1.0)));
         }
         for ((text, color), line) in lines.iter().take(room).zip(0_u8..) {
             self.line(area, area.y + step * f32::from(line), text, small, Align::Left, *color);
