@@ -48,3 +48,41 @@ pub const MOST_HEIGHTS_PER_TICK: f64 = 100.0;
 
 /// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
 pub const FLIPPER_STOP_SPEED: f64 = 1.0;
+
+/// Share of its speed or pull below which a sliding ball's approach to another surface is rounding: that of projecting
+/// a vector twice. Smaller: a ball in a corner is taken to run into the surface that it slides along.
+pub const SLIDE_ROUNDING: f64 = 1e-12;
+
+/// Two surfaces whose normals agree to this (1 - cosine of 1.4 mrad) are one smooth surface where they meet. Smaller:
+/// a ball that rolls over a smooth joint meets it. Larger: a real kink is rolled over without a bounce.
+pub const SMOOTH_JOINT: f64 = 1e-6;
+
+/// An arc begins where a straight piece ends if their gap is below this share of their size: what a table's decimals
+/// leave after sines and cosines. Smaller: balls meet the joints of arches. Larger: true corners are taken for joints.
+pub const JOINT_GAP: f64 = 1e-9;
+
+/// Touch gaps beyond the end of a straight surface within which a ball is still at that end. Positions along a surface
+/// have more roundings than those across. Smaller: a ball falls between two pieces of a wall.
+pub const END_SLACK: f64 = 16.0;
+
+/// Rest speeds below which a ball between two surfaces comes to lie still. Smaller: it rattles for longer, to the same
+/// end. Larger: it is stopped where it still rolled.
+pub const WEDGE_SPEEDS: f64 = 4.0;
+
+/// Ball radii that a ball may be off a moving surface that it follows before it counts as having left: the error of a
+/// tick is far below. Larger: it is pulled back from the air.
+pub const LOST_CONTACT: f64 = 0.01;
+
+/// Ball radii from a target's place within which a ball keeps the target from rising: a hundredth more than a touch.
+pub const CLEAR_OF_TARGET: f64 = 1.01;
+
+/// Share of the part of a flight that was searched by which Newton's last steps may move a root. More than that is no
+/// polish but another root.
+pub const POLISH_STEP: f64 = 1e-6;
+
+/// Impacts with a moving surface within one tick after which no bounce is left: a ball between a rising flipper and a
+/// wall is pushed, not hammered.
+pub const PLASTIC_AFTER: u32 = MOST_IMPACTS_PER_TICK / 4;
+
+/// Parts of a tick that one search covers at the least, so that no speed makes a tick endless.
+pub const MOST_SEARCHES_PER_TICK: f64 = 16.0;

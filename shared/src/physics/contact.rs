@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ball::Support;
-use super::constants::{SLIP_SHARE, SPHERE_INERTIA};
+use super::constants::{SLIDE_ROUNDING, SLIP_SHARE, SMOOTH_JOINT, SPHERE_INERTIA, WEDGE_SPEEDS};
 use super::scene::{Collider, Material, Scene};
 use super::shapes::{Shape, Side};
 use crate::math::tangent;
@@ -103,7 +103,7 @@ impl Touch {
 
     /// Whether two surfaces meet smoothly here: the same normal, but for a thousandth of a radian.
     fn continues(&self, other: &Self) -> bool {
-        self.normal.dot(other.normal) > 1.0 - 1e-6
+        self.normal.dot(other.normal) > 1.0 - SMOOTH_JOINT
     }
 
     fn support(&self) -> Support {
@@ -164,7 +164,7 @@ pub fn settle(
         }
     }
     match (first, second) {
-        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= 4.0 * scene.rest_speed => {
+        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= WEDGE_SPEEDS * scene.rest_speed => {
             let still = Settled {
                 velocity: DVec2::ZERO,
                 acceleration: DVec2::ZERO,
@@ -187,7 +187,8 @@ pub fn settle(
 fn clears(other: &Touch, velocity: DVec2, acceleration: DVec2, rest_speed: f64) -> bool {
     let speed = velocity.dot(other.normal);
     let pull = acceleration.dot(other.normal) + other.curvature * velocity.length_squared();
-    speed > rest_speed || (speed >= -1e-12 * velocity.length() && pull >= -1e-12 * acceleration.length())
+    speed > rest_speed
+        || (speed >= -SLIDE_ROUNDING * velocity.length() && pull >= -SLIDE_ROUNDING * acceleration.length())
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::constants::MOST_IMPACTS_PER_TICK;
+use super::constants::{MOST_IMPACTS_PER_TICK, PLASTIC_AFTER};
 use super::contact::{Response, Surface, respond, settle};
 use super::flipper::FlipperRest;
 use super::motion::Next;
@@ -284,7 +284,7 @@ impl World {
         let speed = (surface.velocity - velocity).dot(surface.normal);
         // Too many impacts within one tick: the rest of them takes all of the bounce.
         let mut surface = *surface;
-        if self.impacts[ball] > MOST_IMPACTS_PER_TICK / 4 {
+        if self.impacts[ball] > PLASTIC_AFTER {
             surface.material.restitution = 0.0;
         }
         if speed > self.scene.rest_speed {
@@ -311,7 +311,7 @@ impl World {
         let contact = position - normal * self.scene.ball_radius;
         let surface_velocity = self.mover_velocity(support, offset, contact);
         let leaving = (velocity - surface_velocity).dot(normal);
-        let stuck = self.impacts[ball] > MOST_IMPACTS_PER_TICK / 4;
+        let stuck = self.impacts[ball] > PLASTIC_AFTER;
         if leaving <= self.scene.rest_speed || stuck {
             self.state.balls[ball].support = support;
             self.follow_surface(ball, offset);

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::constants::ROLLING_SHARE;
+use super::constants::{LOST_CONTACT, ROLLING_SHARE};
 use super::flipper::Nearest;
 use super::movers::{Mover, MovingFlipper};
 use super::scene::Presence;
@@ -70,7 +70,7 @@ impl World {
         };
         let gap = distance - radius;
         // More than it could have left the surface by rounding and the tick's error: it has left.
-        if gap > 0.01 * radius {
+        if gap > LOST_CONTACT * radius {
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
         }

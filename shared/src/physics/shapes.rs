@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::ball::Flight;
+use super::constants::JOINT_GAP;
 use crate::math::tangent;
 
 /// A straight piece of surface without its ends, which are points of their own.
@@ -18,7 +19,7 @@ pub struct Segment {
     pub normal: DVec2,
     /// Metres.
     pub length: f64,
-    /// Stops a ball only from the side away from `normal`, a ball from the other side passes.
+    /// Stops only balls that come from where `normal` does not point; others pass.
     pub one_way: bool,
 }
 
@@ -29,13 +30,11 @@ impl Segment {
         let along = (b - a) / length;
         Self { a, b, along, normal: -tangent(along), length, one_way: false }
     }
-}
 
-impl Segment {
     /// Whether the surface goes on smoothly from one of the segment's ends into `arc`: its end's point, or a circle
     /// that it is tangent to there. A ball that lies on the segment does not run into that.
     pub fn continues_into(&self, arc: &Arc) -> bool {
-        let slack = 1e-9 * self.length;
+        let slack = JOINT_GAP * self.length;
         [self.a, self.b].iter().any(|&end| {
             let offset = end - arc.center;
             (offset.length() - arc.radius).abs() <= slack && offset.dot(self.along).abs() <= slack
@@ -76,7 +75,7 @@ impl Arc {
 
     /// Whether `other` is a point of this circle: an end of the arc, which a ball that follows it does not run into.
     pub fn has_point(&self, other: &Self) -> bool {
-        other.radius == 0.0 && ((other.center - self.center).length() - self.radius).abs() <= 1e-9 * self.radius
+        other.radius == 0.0 && ((other.center - self.center).length() - self.radius).abs() <= JOINT_GAP * self.radius
     }
 
     /// Distance from the centre at which a ball of `ball_radius` touches this face.

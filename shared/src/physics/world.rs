@@ -8,6 +8,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
+use super::constants::CLEAR_OF_TARGET;
 use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::motion::{Next, next_event};
 use super::movers::{MovingFlipper, MovingPlunger};
@@ -292,7 +293,9 @@ impl World {
             let blocked = self.state.balls.iter().any(|ball| {
                 let (position, _) = ball.at(now, scene.tick_seconds);
                 let place = scene.colliders.iter().filter(|collider| collider.presence == presence);
-                place.into_iter().any(|collider| collider.shape.distance(position) <= scene.ball_radius * 1.01)
+                place
+                    .into_iter()
+                    .any(|collider| collider.shape.distance(position) <= scene.ball_radius * CLEAR_OF_TARGET)
             });
             if !blocked {
                 self.state.targets[index] = TargetState::Up;

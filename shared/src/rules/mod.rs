@@ -74,7 +74,7 @@ fn matches(trigger: &Trigger, occasion: Occasion, table: &Table, world: &World) 
         (Trigger::Hit(elements), Occasion::Physics(kind)) => {
             let element = match kind {
                 EventKind::Kicked { element, .. } | EventKind::Felled { element, .. } => element,
-                EventKind::Touched { element, .. } if !acts(table, element) => element,
+                EventKind::Touched { element, .. } if !table.acts[usize::from(element)] => element,
                 _ => return false,
             };
             elements.contains(&element)
@@ -87,12 +87,6 @@ fn matches(trigger: &Trigger, occasion: Occasion, table: &Table, world: &World) 
         (Trigger::BallStart, Occasion::BallStart) | (Trigger::BallEnd, Occasion::BallEnd) => true,
         _ => false,
     }
-}
-
-/// Whether an element does something when hit hard enough: a mere touch of it is then no hit.
-fn acts(table: &Table, element: u16) -> bool {
-    use crate::table::ElementFile as E;
-    matches!(table.file.elements[usize::from(element)], E::Bumper(_) | E::Slingshot(_) | E::DropTarget(_))
 }
 
 fn targets_down(world: &World) -> u64 {

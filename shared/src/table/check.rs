@@ -69,6 +69,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
         scene: Arc::new(scene),
         ball_start: vector(file.ball.start),
         rules,
+        acts: file.elements.iter().map(acts).collect(),
         targets: context.all(|element| matches!(element, ElementFile::DropTarget(_))),
         lights: context.all(|element| matches!(element, ElementFile::Light(_))),
         file,
@@ -91,6 +92,10 @@ fn unreadable(file: &str, source: &str, error: &ron::error::SpannedError) -> Tab
         field,
         problem: error.code.to_string(),
     }
+}
+
+fn acts(element: &ElementFile) -> bool {
+    matches!(element, ElementFile::Bumper(_) | ElementFile::Slingshot(_) | ElementFile::DropTarget(_))
 }
 
 /// A written point as a vector.

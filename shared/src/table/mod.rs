@@ -47,6 +47,8 @@ pub struct Table {
     pub ball_start: DVec2,
     /// The rules, with names resolved.
     pub rules: RuleBook,
+    /// For each element, whether it does something when hit hard enough: a mere touch of it is then no hit.
+    pub acts: Vec<bool>,
     /// For each target of the scene, the element that it is.
     pub targets: Vec<u16>,
     /// For each light, the element that it is.

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{Search, TimeOfImpact, touch_gap, without_rounding};
 use crate::math::roots::{quadratic, sign_changes};
 use crate::physics::ball::Flight;
-use crate::physics::constants::DEEPEST_OVERLAP;
+use crate::physics::constants::{DEEPEST_OVERLAP, POLISH_STEP};
 use crate::physics::shapes::Arc;
 
 pub(super) fn first_impact(flight: &Flight, radius: f64, arc: &Arc, search: &Search) -> TimeOfImpact {
@@ -115,7 +115,7 @@ fn polish(flight: &Flight, arc: &Arc, reach: f64, search: &Search, root: f64) ->
         let next = t - (distance - reach) / rate;
         // A graze has no slope to follow; and the root stays in the part of the flight that was searched.
         let correction = (next - t).abs();
-        let allowed = 1e-6 * (search.to - search.from);
+        let allowed = POLISH_STEP * (search.to - search.from);
         if correction.is_nan() || correction > allowed || next < search.from || next >= search.to {
             break;
         }

@@ -3,7 +3,7 @@
 use super::{Search, TimeOfImpact, touch_gap, without_rounding};
 use crate::math::roots::quadratic;
 use crate::physics::ball::Flight;
-use crate::physics::constants::{DEEPEST_OVERLAP, TOUCH};
+use crate::physics::constants::{DEEPEST_OVERLAP, END_SLACK, TOUCH};
 use crate::physics::shapes::Segment;
 
 pub(super) fn first_impact(flight: &Flight, radius: f64, segment: &Segment, search: &Search) -> TimeOfImpact {
@@ -31,7 +31,7 @@ fn from_side(flight: &Flight, radius: f64, segment: &Segment, side: f64, search:
     let touch = touch_gap(flight, radius);
     let deepest = if segment.one_way { touch } else { DEEPEST_OVERLAP * radius };
     let start = segment.along.dot(offset);
-    let slack = 16.0 * touch;
+    let slack = END_SLACK * touch;
 
     let is_beside = start >= -slack && start <= segment.length + slack;
     if gap <= touch && gap >= -deepest && is_beside {

@@ -4,7 +4,7 @@
 //! pieces depend on the flight alone, so a search gives the same bits whenever and wherever it is repeated.
 
 use super::super::ball::{Ball, Flight, Support};
-use super::super::constants::SEARCH_LENGTH;
+use super::super::constants::{MOST_SEARCHES_PER_TICK, SEARCH_LENGTH};
 use super::super::impact::{Search, TimeOfImpact, ball_shape, center_passes, leaves_segment};
 use super::super::scene::{Collider, Role, Scene};
 use super::super::shapes::{Bounds, Shape, Side};
@@ -36,7 +36,7 @@ fn piece(flight: &Flight, scene: &Scene) -> f64 {
     let by_speed = half / flight.velocity.length();
     let by_pull = (2.0 * half / flight.acceleration.length()).sqrt();
     let piece = if by_speed < by_pull { by_speed } else { by_pull };
-    let least = scene.tick_seconds / 16.0;
+    let least = scene.tick_seconds / MOST_SEARCHES_PER_TICK;
     if piece < least { least } else { piece }
 }
 
