@@ -12,6 +12,8 @@ use super::format::{ElementFile, Point, TableFile};
 use super::locate::{Step, element_at, line_of};
 use super::{FORMAT_VERSION, MOST_TEXT, Table, rulebook, shapes};
 use crate::math::Digest;
+use crate::physics::scene::{Collider, Role, Scene};
+use crate::physics::shapes::{Shape, Side};
 use crate::physics::{MOST_PARTS, PHYSICS_VERSION};
 
 /// Most elements of a table.
@@ -59,6 +61,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
     let context = context.with_names()?;
     context.groups()?;
     let scene = shapes::build(&context)?;
+    context.start_is_clear(&scene)?;
     let rules = rulebook::resolve(&context, &file.rules)?;
     let mut digest = Digest::default();
     digest.update(source.as_bytes());
@@ -266,6 +269,30 @@ impl<'a> Context<'a> {
             return Err(self.error(Spot::Table, Some("elements"), problem));
         }
         Ok(self)
+    }
+
+    /// A ball is served beside things, not in them.
+    fn start_is_clear(&self, scene: &Scene) -> Result<(), TableError> {
+        let start = vector(self.file.ball.start);
+        let is_in = |collider: &Collider| match &collider.shape {
+            // The whole disc of a post is in the way, not its rim alone.
+            Shape::Arc(arc) if arc.span.is_none() && arc.side == Side::Outside => {
+                (start - arc.center).length() < arc.reach(scene.ball_radius)
+            }
+            shape => shape.distance(start) < scene.ball_radius,
+        };
+        let solid = |collider: &&Collider| !matches!(collider.role, Role::Sensor | Role::Drain);
+        match scene.colliders.iter().filter(solid).find(|collider| is_in(collider)) {
+            None => Ok(()),
+            Some(collider) => {
+                let name = self.file.elements[usize::from(collider.element)].name();
+                let problem = format!(
+                    "a ball served at {:?} would overlap {name:?}; a place that is a ball's radius from everything would be right",
+                    self.file.ball.start
+                );
+                Err(self.error(Spot::Ball, Some("start"), problem))
+            }
+        }
     }
 
     fn groups(&self) -> Result<(), TableError> {

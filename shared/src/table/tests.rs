@@ -350,3 +350,16 @@ fn the_example_in_the_description_is_a_good_table() {
         assert!(row.ends_with(&format!(": {text} |")), "{row}");
     }
 }
+
+/// A ball that was served within a bumper stayed there.
+#[test]
+fn a_ball_is_not_served_within_something() {
+    let (_, classic) = super::SHIPPED[0];
+    let text = classic.replace("start: (0.494, 0.1145)", "start: (0.19, 0.765)");
+    let error = Table::parse("inside.ron", &text).expect_err("bumper 1 is there");
+    assert_eq!(
+        (error.line, error.field.as_deref()),
+        (text[..text.find("start:").unwrap()].lines().count(), Some("start"))
+    );
+    assert!(error.problem.contains("bumper 1") && error.problem.contains("would be right"), "{error}");
+}

@@ -21,7 +21,7 @@ use crate::table::Table;
 fn world_with(gravity: DVec2, elements: &str) -> World {
     let source = format!(
         r#"(format: 1, physics: 1, name: "test", size: (1.0, 1.0), gravity: ({:?}, {:?}), rest_speed: 0.02,
-        ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.5)),
+        ball: (radius: 0.0135, mass: 0.08, start: (0.985, 0.985)),
         materials: {{
             "ideal": (restitution: 1.0),
             "slick": (restitution: 0.5),
