@@ -3,6 +3,7 @@
 pub mod ball;
 pub mod constants;
 pub mod contact;
+mod drive;
 mod events;
 pub mod flipper;
 mod follow;

@@ -9,11 +9,12 @@ use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
 use super::constants::CLEAR_OF_TARGET;
-use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
+use super::flipper::{FlipperMotion, FlipperRest};
 use super::motion::{Next, next_event};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
 use super::scene::{Presence, Scene};
+use super::shapes::Bounds;
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
 /// Something that happened to a ball.
@@ -78,6 +79,8 @@ pub struct World {
     pub(super) plunger_motions: Vec<Option<PlungerMotion>>,
     /// Impacts of each ball within the current tick.
     pub(super) impacts: Vec<u32>,
+    /// Before this tick nothing happens, unless somebody does something. Can be recomputed.
+    quiet_until: u64,
 }
 
 impl World {
@@ -90,6 +93,7 @@ impl World {
             flipper_motions: vec![None; scene.flippers.len()],
             plunger_motions: vec![None; scene.plungers.len()],
             impacts: Vec::with_capacity(MOST_BALLS),
+            quiet_until: 0,
             scene,
             state,
         }
@@ -98,6 +102,11 @@ impl World {
     /// Advances the world by one tick and returns what happened in it.
     pub fn step(&mut self) -> &[Event] {
         self.events.clear();
+        // 0. Flights were solved when they began: until the next event, time just passes.
+        if self.state.tick < self.quiet_until {
+            self.state.tick += 1;
+            return &self.events;
+        }
         self.impacts.clear();
         self.impacts.resize(self.state.balls.len(), 0);
         // 1. Flippers and plungers: which of them move in this tick, and how they are driven.
@@ -112,6 +121,7 @@ impl World {
         self.state.tick += 1;
         self.raise_targets();
         self.take_out_escaped();
+        self.quiet_until = self.next_busy_tick();
         &self.events
     }
 
@@ -140,6 +150,7 @@ impl World {
         self.next.resize(state.balls.len(), None);
         self.state = state;
         self.events.clear();
+        self.quiet_until = 0;
         Ok(())
     }
 
@@ -154,6 +165,7 @@ impl World {
         let flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: self.scene.gravity };
         self.state.balls.push(Ball { id, flight, spin: 0.0, support: Support::None, past: None });
         self.next.push(None);
+        self.quiet_until = 0;
         Some(id)
     }
 
@@ -161,10 +173,12 @@ impl World {
     pub fn clear_balls(&mut self) {
         self.state.balls.clear();
         self.next.clear();
+        self.quiet_until = 0;
     }
 
     /// Presses or releases the button of all flippers of one hand.
     pub fn press(&mut self, right: bool, pressed: bool) {
+        self.quiet_until = 0;
         for (spec, flipper) in self.scene.flippers.iter().zip(&mut self.state.flippers) {
             if spec.right == right && flipper.pressed != pressed {
                 flipper.pressed = pressed;
@@ -175,6 +189,7 @@ impl World {
 
     /// Holds every plunger at that share of its stroke, or lets go of it. A share beyond 0 to 1 is cut to it.
     pub fn pull(&mut self, hand: Option<f64>) {
+        self.quiet_until = 0;
         for plunger in &mut self.state.plungers {
             plunger.hand = hand.map(|share| if share > 0.0 { share.min(1.0) } else { 0.0 });
         }
@@ -185,97 +200,37 @@ impl World {
         let target = &mut self.state.targets[usize::from(target)];
         if *target == TargetState::Down {
             *target = TargetState::Rising;
+            self.quiet_until = 0;
         }
     }
 
-    /// 1. Decides which flippers and plungers move in this tick.
-    fn drive_movers(&mut self) {
-        let dt = self.scene.tick_seconds;
-        for index in 0..self.state.flippers.len() {
-            let flipper = self.state.flippers[index];
-            let starts = match flipper.rest {
-                FlipperRest::AtRest => flipper.pressed,
-                FlipperRest::Raised => !flipper.pressed,
-                FlipperRest::Moving => false,
+    /// The first tick in which something may happen: a coil, a plunger or a target at work, a ball that follows a
+    /// surface tick by tick, or a flight's next event.
+    fn next_busy_tick(&self) -> u64 {
+        let (state, dt) = (&self.state, self.scene.tick_seconds);
+        let at_work = state.flippers.iter().any(|f| f.pressed || f.rest != FlipperRest::AtRest)
+            || state.plungers.iter().any(|p| !p.home || !p.stays_home())
+            || state.targets.contains(&TargetState::Rising);
+        if at_work {
+            return 0;
+        }
+        let now = Instant::start_of(state.tick);
+        let mut busy = u64::MAX;
+        for (ball, next) in state.balls.iter().zip(&self.next) {
+            let (Support::None | Support::Line(_) | Support::Wedge(..), Some(next)) = (ball.support, next) else {
+                return 0;
             };
-            if starts {
-                self.state.flippers[index].rest = FlipperRest::Moving;
-                self.flipper_changed(index, 0.0, true);
+            let (from, to) = (now.since(ball.flight.start, dt), next.time());
+            // A ball that leaves the table has to be noticed in that very tick.
+            let path = Bounds::of_flight(&ball.flight, from, if to < f64::MAX { to } else { from });
+            if !(self.scene.is_inside(path.low) && self.scene.is_inside(path.high)) {
+                return 0;
             }
-            let flipper = self.state.flippers[index];
-            self.flipper_motions[index] =
-                (flipper.rest == FlipperRest::Moving).then(|| self.flipper_motion(index, flipper));
+            // A tick less, for the rounding of the division.
+            let ticks = ((to - from) / dt) as u64;
+            busy = busy.min(state.tick.saturating_add(ticks.saturating_sub(1)));
         }
-        for index in 0..self.state.plungers.len() {
-            let plunger = self.state.plungers[index];
-            let home = plunger.stays_home();
-            if home != plunger.home {
-                self.state.plungers[index].home = home;
-                self.plunger_changed(index, 0.0, !home);
-            }
-            self.plunger_motions[index] = (!home).then(|| {
-                let load = self.plunger_load(index);
-                self.scene.plungers[index].motion(&plunger, load, dt)
-            });
-        }
-    }
-
-    /// How a flipper moves in this tick: with the acceleration that it has in the middle of it.
-    fn flipper_motion(&self, index: usize, flipper: FlipperState) -> FlipperMotion {
-        let dt = self.scene.tick_seconds;
-        let spec = &self.scene.flippers[index];
-        let FlipperState { swing, speed, .. } = flipper;
-        let acceleration = self.flipper_acceleration(index, &flipper, spec.drive(&flipper, swing, dt), 0.0);
-        let guess = FlipperMotion { from: 0.0, swing, speed, acceleration };
-        let half = 0.5 * dt;
-        let middle = FlipperState { swing: guess.swing_at(half), speed: guess.speed_at(half), ..flipper };
-        let drive = spec.drive(&flipper, guess.swing_at(dt), dt);
-        FlipperMotion { acceleration: self.flipper_acceleration(index, &middle, drive, half), ..guess }
-    }
-
-    /// What the torque of coil or spring and the balls lying on it make of a flipper, `later` seconds into the tick.
-    fn flipper_acceleration(&self, index: usize, flipper: &FlipperState, drive: f64, later: f64) -> f64 {
-        let scene = &self.scene;
-        let spec = &scene.flippers[index];
-        let (mut torque, mut inertia) = (drive, spec.inertia);
-        for ball in self.state.balls.iter().filter(|ball| ball.support == Support::Flipper(index as u16)) {
-            let (position, velocity) = ball.at(Instant::start_of(self.state.tick), scene.tick_seconds);
-            let center = position + velocity * later;
-            let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.ball_radius);
-            // What the flipper must push the ball with, beyond the change of its own turn.
-            let push = carried.acceleration - scene.gravity.dot(carried.normal);
-            if carried.lever * drive / spec.inertia + push > 0.0 {
-                torque -= scene.ball_mass * carried.lever * push;
-                inertia += scene.ball_mass * carried.lever * carried.lever;
-            }
-        }
-        torque / inertia
-    }
-
-    /// Mass of the balls lying on a plunger.
-    fn plunger_load(&self, index: usize) -> f64 {
-        let lying = self.state.balls.iter().filter(|ball| ball.support == Support::Plunger(index as u16));
-        lying.count() as f64 * self.scene.ball_mass
-    }
-
-    /// 4. Carries flippers and plungers over to the next tick.
-    fn settle_movers(&mut self) {
-        let dt = self.scene.tick_seconds;
-        for (flipper, motion) in self.state.flippers.iter_mut().zip(&self.flipper_motions) {
-            if flipper.pressed {
-                flipper.coil_time += dt;
-            }
-            if let (Some(motion), FlipperRest::Moving) = (motion, flipper.rest) {
-                flipper.swing = motion.swing_at(dt);
-                flipper.speed = motion.speed_at(dt);
-            }
-        }
-        for (plunger, motion) in self.state.plungers.iter_mut().zip(&self.plunger_motions) {
-            if let (Some(motion), false) = (motion, plunger.home) {
-                plunger.pull = motion.pull_at(dt);
-                plunger.speed = if plunger.hand.is_some() { 0.0 } else { motion.speed_at(dt) };
-            }
-        }
+        busy
     }
 
     /// Targets that were told to rise do so when no ball touches their place.
