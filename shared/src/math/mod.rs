@@ -1,11 +1,13 @@
-//! What glam and std lack, or do differently on different platforms: trigonometry on libm, polynomial roots, a seeded
-//! generator, a digest of state.
+//! What glam and std lack, or do differently on different platforms: trigonometry on libm, lines and circles, polynomial
+//! roots, a seeded generator, a digest of state.
 
 mod digest;
 mod rng;
 pub mod roots;
 
 pub mod bounded;
+pub mod circle;
+pub mod line;
 pub use digest::{Digest, digest_of};
 pub use rng::Rng;
 

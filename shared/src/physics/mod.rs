@@ -16,6 +16,7 @@ pub mod shapes;
 mod state;
 #[cfg(test)]
 mod tests;
+pub mod two_body;
 mod world;
 
 pub use constants::PHYSICS_VERSION;
