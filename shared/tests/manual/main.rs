@@ -1,0 +1,42 @@
+//! The Starball v2 manual as tests: its table of contents, system by system, in the order in which it has them.
+//!
+//! Where the manual is right, ours agrees with it. Where it is wrong, its algorithm is written out here as printed, and
+//! a test shows both. Only the public interface of the crate is used. A `figure_N` in a test's name is the manual's.
+//! The manual's y axis points down the screen and ours up the table, which changes no formula in here.
+
+// 2 File structure, 3 Algorithms and techniques: the world, the game loop, how a ball moves, ...
+mod pixel_loop;
+
+// ... what it hits and what becomes of it.
+mod circle_circle;
+mod circle_line;
+mod replacement_at_circle;
+mod two_body;
+
+// 4.1 Tools.
+mod lines;
+mod vectors;
+
+// 4.2 Application in the project: its first version.
+mod reflection;
+mod swept_area;
+
+use glam::DVec2;
+
+/// Unit vector at `degrees` from +x, counter-clockwise; exact where it lies on an axis.
+fn unit_at(degrees: i32) -> DVec2 {
+    match degrees.rem_euclid(360) {
+        0 => DVec2::X,
+        90 => DVec2::Y,
+        180 => DVec2::NEG_X,
+        270 => DVec2::NEG_Y,
+        other => DVec2::from_angle(shared::math::radians(f64::from(other))),
+    }
+}
+
+#[track_caller]
+fn assert_near(found: DVec2, expected: DVec2, tolerance: f64) {
+    // Written so that NaN is not near to anything.
+    let is_near = (found - expected).length() <= tolerance;
+    assert!(is_near, "{found} instead of {expected}");
+}
