@@ -114,6 +114,11 @@ fn with_its_centre_past_the_line_the_ball_goes_back_to_where_it_was_before() {
     assert_near(by_compass(&past, (p + q) * 0.5).expect("a base line"), DVec2::new(2.0, -0.25), 1e-15);
     assert_eq!(past.place_at_segment(WALL, DVec2::new(2.0, 0.5)), DVec2::new(2.0, 0.25));
     assert_eq!(
+        past.place_at_segment(WALL, DVec2::new(2.0, 0.0)),
+        DVec2::new(2.0, -0.25),
+        "where it was on the line before, its centre tells"
+    );
+    assert_eq!(
         ball(4.0, -0.125).place_at_segment(WALL, DVec2::new(4.5, 0.5)),
         DVec2::new(4.0, -0.25),
         "a ball that went round the end has not passed the line"

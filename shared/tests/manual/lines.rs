@@ -44,9 +44,11 @@ fn equation_of_a_line_holds_at_both_points_at_every_angle() {
 }
 
 #[test]
-fn equation_through_coinciding_points_does_not_exist() {
+fn equation_through_coinciding_points_or_none_at_all_does_not_exist() {
     assert_eq!(Line::through(DVec2::ONE, DVec2::ONE), None);
-    assert_eq!(Line::through(DVec2::ONE, DVec2::new(f64::NAN, 0.0)), None);
+    for beyond_numbers in [f64::NAN, f64::INFINITY, f64::MAX] {
+        assert_eq!(Line::through(DVec2::ONE, DVec2::new(beyond_numbers, 0.0)), None);
+    }
 }
 
 /// As printed, c = x: the line through (3, 0) and (3, 5) does not contain these points, and is met at x = -3.

@@ -87,10 +87,11 @@ fn momentum_is_kept_for_any_ratio_of_masses() {
         for ratio in mass_ratios() {
             let (m1, m2) = (0.08 * ratio, 0.08);
             let (a, b) = after_impact(v1, v2, m1, m2, axis, 0.5);
-            // Of the momentum that moved, not of the heavier ball's: a light ball must not lose its own in rounding.
-            let moved = (m2 * (b - v2)).length();
-            let lost = (m1 * (a - v1) + m2 * (b - v2)).length();
-            let rounding = 4.0 * f64::EPSILON * (m1 * v1.length() + m2 * v2.length() + moved);
+            // Written as changes, so that a light ball's momentum is not lost in a heavy one's.
+            let moved = m2 * (b - v2);
+            let lost = (m1 * (a - v1) + moved).length();
+            // A velocity is as good as its own rounding at the best.
+            let rounding = 4.0 * f64::EPSILON * (m1 * v1.length() + m2 * v2.length() + moved.length());
             assert!(lost <= rounding, "{lost} kg m/s lost of {moved} at a ratio of {ratio}");
         }
     }
