@@ -8,6 +8,7 @@ pub const SEATS: usize = 2;
 
 /// What somebody does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub enum Action {
     /// Takes the seat.
     Sit,
@@ -37,6 +38,7 @@ impl Action {
 
 /// An action of a seat at a tick.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Input {
     /// The tick in which it acts.
     pub tick: u64,
