@@ -4,6 +4,7 @@
 mod bot;
 mod events;
 mod input;
+pub mod replay;
 mod state;
 #[cfg(test)]
 mod tests;

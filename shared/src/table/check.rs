@@ -325,11 +325,11 @@ impl<'a> Context<'a> {
 }
 
 /// Whether a name or message is one that can be shown.
-pub(super) fn is_printable(text: &str) -> bool {
+pub(crate) fn is_printable(text: &str) -> bool {
     !text.is_empty() && text.chars().count() <= MOST_CHARACTERS && !text.chars().any(char::is_control)
 }
 
 /// What is wrong with a text that cannot be shown.
-pub(super) fn unprintable(text: &str) -> String {
+pub(crate) fn unprintable(text: &str) -> String {
     format!("{text:?} is not 1 to {MOST_CHARACTERS} printable characters")
 }

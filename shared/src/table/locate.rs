@@ -1,4 +1,4 @@
-//! Finds the line of a table's text that an error is about.
+//! Finds the line of a text in RON, a table's or a replay's, that an error is about.
 //!
 //! Once RON is parsed, its values no longer know where they stood. They are found again by the way that leads to them:
 //! through fields, keys of maps and items of lists. Names are not searched for: they may be missing, double or escaped.
@@ -7,7 +7,7 @@ use core::ops::Range;
 
 /// One step on the way to a value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Step<'a> {
+pub(crate) enum Step<'a> {
     /// A field of a struct.
     Field(&'a str),
     /// A key of a map.
@@ -18,7 +18,7 @@ pub(super) enum Step<'a> {
 
 /// The line, from 1, on which the value at the end of the way begins; of the last step that is there, if the whole way
 /// is not. 0 if not even the first is.
-pub(super) fn line_of(source: &str, way: &[Step<'_>]) -> usize {
+pub(crate) fn line_of(source: &str, way: &[Step<'_>]) -> usize {
     let masked = mask(source);
     let mut value = table(&masked)..masked.len();
     let mut found = None;

@@ -4,7 +4,7 @@
 mod check;
 mod error;
 pub mod format;
-mod locate;
+pub(crate) mod locate;
 mod rulebook;
 mod shapes;
 #[cfg(test)]
@@ -15,6 +15,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+pub(crate) use check::{is_printable, unprintable};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};
