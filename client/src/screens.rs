@@ -172,7 +172,7 @@ fn is_on_plunger(game: &Game) -> bool {
     game.world().state().balls.iter().any(|ball| {
         let (position, velocity) = ball.at(now, scene.tick_seconds);
         let near = |pull: f64, plunger: &shared::physics::plunger::PlungerSpec| {
-            plunger.distance(pull, position) < 2.0 * scene.ball_radius
+            plunger.distance(pull, position) < 2.0 * scene.radius(0)
         };
         let plungers = scene.plungers.iter().zip(&game.world().state().plungers);
         velocity.length() < 0.3 && plungers.into_iter().any(|(spec, state)| near(state.pull, spec))

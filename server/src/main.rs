@@ -1,10 +1,14 @@
-//! The headless server's command line: `starball-server` serves, `starball-server simulate` plays without network.
+//! The headless server's command line: `starball-server` serves, its subcommands play without network.
+
+mod commands;
 
 use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
-use starball_server::{Config, load_table, simulate};
+use shared::physics::motion::Motion;
+use starball_server::{Config, load_table};
 use tokio::net::TcpListener;
 use tracing_subscriber::EnvFilter;
 
@@ -48,17 +52,35 @@ struct Serve {
 
 #[derive(Debug, Args)]
 struct Simulate {
-    /// A shipped table's name or a table file.
+    /// A shipped table's name, or a file with a table or a bare scene.
     table: String,
     /// World time to play, seconds.
     #[arg(long, default_value_t = 60.0, value_parser = seconds, allow_negative_numbers = true)]
     seconds: f64,
-    /// Lets the bot play; else nobody does.
-    #[arg(long)]
-    bot: bool,
+    /// How the next impact of a ball is found: discrete, pixel, swept or exact. Left out: as the table says.
+    #[arg(long, value_name = "MODEL")]
+    motion: Option<Motion>,
+    /// World ticks a second, 1 to 1000000. Left out: as the table says.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    tick_hz: Option<u32>,
     /// What the bot's habits follow from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Lets the bot play.
+    #[arg(long, conflicts_with = "inputs")]
+    bot: bool,
+    /// Plays the inputs of this replay, and checks that it arrives where the replay says.
+    #[arg(long, value_name = "FILE")]
+    inputs: Option<PathBuf>,
+    /// Writes a line of JSON for every impact, then one with the final state; `-` is standard output.
+    #[arg(long, value_name = "FILE")]
+    trace: Option<PathBuf>,
+    /// Writes a replay of what was played.
+    #[arg(long, value_name = "FILE")]
+    record: Option<PathBuf>,
+    /// Plays so many times and tells what it costs, as medians: one line of JSON.
+    #[arg(long, value_name = "N", conflicts_with_all = ["trace", "record"], value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    bench: Option<u32>,
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -71,7 +93,7 @@ fn seconds(text: &str) -> Result<f64, String> {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
-        Some(Command::Simulate(arguments)) => simulate(&arguments),
+        Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
         None => serve(&arguments.serve),
     };
     match outcome {
@@ -80,16 +102,6 @@ fn main() -> ExitCode {
             eprintln!("starball-server: {problem}");
             ExitCode::FAILURE
         }
-    }
-}
-
-fn simulate(arguments: &Simulate) -> Result<(), String> {
-    let table = load_table(&arguments.table)?;
-    let simulation = simulate::Simulation { seconds: arguments.seconds, bot: arguments.bot, seed: arguments.seed };
-    match writeln!(std::io::stdout(), "{}", simulate::run(&table, simulation)) {
-        // Whoever reads has enough.
-        Err(error) if error.kind() == std::io::ErrorKind::BrokenPipe => Ok(()),
-        written => written.map_err(|error| format!("cannot print the outcome: {error}")),
     }
 }
 
@@ -102,6 +114,12 @@ fn serve(arguments: &Serve) -> Result<(), String> {
         .with_target(false)
         .init();
     let table = load_table(&arguments.table)?;
+    if !table.has_rules {
+        return Err(format!(
+            "{:?} is a bare scene, which has no rules to play by; `starball-server simulate {}` runs it",
+            arguments.table, arguments.table
+        ));
+    }
     let mut config = Config::new(table);
     config.attract = !arguments.no_bot;
     config.seed = arguments.seed;

@@ -1,42 +1,105 @@
 //! `simulate`: plays a table without network, as fast as the machine can.
 
+use std::io::{self, Write};
 use std::sync::Arc;
+use std::time::Instant as Clock;
 
-use serde_json::json;
+use serde_json::{Value, json};
+use shared::game::replay::{Recorder, Replay};
 use shared::game::{Action, Bot, Game, GameEventKind, Input, Phase};
+use shared::physics::ball::Instant;
+use shared::physics::{Event, EventKind};
 use shared::table::Table;
 
 /// What is simulated.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
     /// World time, seconds.
     pub seconds: f64,
-    /// The bot plays, game after game; else nobody does.
-    pub bot: bool,
+    /// Who plays.
+    pub player: Player,
     /// What the bot's habits follow from.
     pub seed: u64,
 }
 
+/// Who plays a simulated game.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Player {
+    /// Nobody.
+    Nobody,
+    /// The bot, game after game.
+    Bot,
+    /// Whoever's inputs these were.
+    Inputs(Vec<Input>),
+}
+
+impl Simulation {
+    /// Ticks of the whole of it.
+    fn ticks(&self, table: &Table) -> u64 {
+        // A cast saturates; `seconds` is checked by the command line.
+        (self.seconds / table.scene.tick_seconds).round() as u64
+    }
+}
+
+/// Whoever chooses the inputs of each tick.
+struct Inputs<'a> {
+    player: &'a Player,
+    bot: Bot,
+    /// Of a log: how many are past.
+    past: usize,
+}
+
+impl<'a> Inputs<'a> {
+    fn new(simulation: &'a Simulation) -> Self {
+        Self { player: &simulation.player, bot: Bot::new(0, simulation.seed), past: 0 }
+    }
+
+    /// The inputs of the game's next tick.
+    fn choose(&mut self, game: &Game, inputs: &mut Vec<Input>) {
+        inputs.clear();
+        let tick = game.tick();
+        match self.player {
+            Player::Nobody => {}
+            Player::Bot => {
+                let mut act = |action| inputs.push(Input { tick, seat: 0, action });
+                if tick == 0 {
+                    act(Action::Sit);
+                }
+                if !matches!(game.phase(), Phase::Play { .. }) {
+                    act(Action::Start);
+                }
+                self.bot.play(game, act);
+            }
+            Player::Inputs(log) => {
+                let due = log[self.past..].iter().take_while(|input| input.tick == tick);
+                inputs.extend(due);
+                self.past += inputs.len();
+            }
+        }
+    }
+}
+
 /// Plays, and tells the outcome as one line of JSON: `score` (points of all games together), `games` begun, `balls`
-/// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`. Table, seconds and seed decide every bit of it.
-pub fn run(table: &Arc<Table>, simulation: Simulation) -> String {
+/// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`. Table,
+/// seconds, seed and inputs decide every bit of it.
+///
+/// `trace` gets a line of JSON for every impact, then one with the final state; `recorder` notes every tick.
+///
+/// # Errors
+/// If the trace cannot be written.
+pub fn run(
+    table: &Arc<Table>,
+    simulation: &Simulation,
+    mut trace: Option<&mut dyn Write>,
+    mut recorder: Option<&mut Recorder>,
+) -> io::Result<(Game, Value)> {
     let mut game = Game::new(Arc::clone(table));
-    let mut bot = Bot::new(0, simulation.seed);
-    let ticks = (simulation.seconds / table.scene.tick_seconds).round() as u64;
+    let mut player = Inputs::new(simulation);
+    let ticks = simulation.ticks(table);
     let (mut score, mut games, mut balls, mut rescued) = (0_u64, 0_u64, 0_u64, 0_u64);
     let mut inputs = Vec::new();
-    for tick in 0..ticks {
-        inputs.clear();
-        if simulation.bot {
-            let mut act = |action| inputs.push(Input { tick, seat: 0, action });
-            if tick == 0 {
-                act(Action::Sit);
-            }
-            if !matches!(game.phase(), Phase::Play { .. }) {
-                act(Action::Start);
-            }
-            bot.play(&game, act);
-        }
+    for _ in 0..ticks {
+        player.choose(&game, &mut inputs);
         for event in game.step(&inputs) {
             match event.kind {
                 GameEventKind::Points { points, .. } => score = score.saturating_add(points),
@@ -46,12 +109,120 @@ pub fn run(table: &Arc<Table>, simulation: Simulation) -> String {
                 _ => {}
             }
         }
+        if let Some(trace) = &mut trace {
+            for event in game.world().events() {
+                writeln!(trace, "{}", trace_line(table, event))?;
+            }
+        }
+        if let Some(recorder) = &mut recorder {
+            recorder.after_step(&game, &inputs);
+        }
     }
     let digest = format!("{:016x}", game.digest());
+    if let Some(trace) = &mut trace {
+        writeln!(trace, "{}", final_line(table, &game, &digest))?;
+        trace.flush()?;
+    }
     let told = json!({
         "score": score, "games": games, "balls": balls, "rescued": rescued, "ticks": ticks, "digest": digest,
     });
-    told.to_string()
+    Ok((game, told))
+}
+
+/// One impact: `t` in seconds since the start, `element` by name, `ball` by number, `pos` and `vel` just after.
+fn trace_line(table: &Table, event: &Event) -> Value {
+    let element_name = |element: u16| table.file.elements[usize::from(element)].name();
+    let position = event.position + table.scene.origin;
+    let mut line = json!({
+        "t": event.at.since(Instant::start_of(0), table.scene.tick_seconds),
+        "ball": event.ball,
+        "pos": [position.x, position.y],
+        "vel": [event.velocity.x, event.velocity.y],
+    });
+    match event.kind {
+        EventKind::Touched { element, .. } | EventKind::Kicked { element, .. } | EventKind::Felled { element, .. } => {
+            line["element"] = json!(element_name(element));
+        }
+        EventKind::Passed { element } => {
+            line["element"] = json!(element_name(element));
+            line["event"] = json!("passed");
+        }
+        EventKind::Met { other, .. } => {
+            line["element"] = json!(format!("ball {other}"));
+            line["event"] = json!("met");
+        }
+        EventKind::Drained => line["event"] = json!("drained"),
+        EventKind::Escaped => line["event"] = json!("escaped"),
+    }
+    line
+}
+
+/// The state at the end: every ball's place and velocity, and the digest.
+fn final_line(table: &Table, game: &Game, digest: &str) -> Value {
+    let world = game.world();
+    let (state, dt) = (world.state(), table.scene.tick_seconds);
+    let now = Instant::start_of(state.tick);
+    let balls: Vec<_> = state
+        .balls
+        .iter()
+        .map(|ball| {
+            let (position, velocity) = ball.at(now, dt);
+            let position = position + table.scene.origin;
+            json!({ "ball": ball.id, "pos": [position.x, position.y], "vel": [velocity.x, velocity.y] })
+        })
+        .collect();
+    json!({
+        "final": true,
+        "t": now.since(Instant::start_of(0), dt),
+        "ticks": state.tick,
+        "balls": balls,
+        "digest": digest,
+    })
+}
+
+/// Plays `runs` times and tells what a simulated second, a tick and an event cost, as one line of JSON: medians in
+/// nanoseconds, and the number of events. An event is whatever the world tells: an impact, a pass, a lost ball.
+///
+/// # Panics
+/// If `runs` is 0.
+pub fn bench(table: &Arc<Table>, simulation: &Simulation, runs: u32) -> Value {
+    let ticks = simulation.ticks(table).max(1);
+    let mut events = 0_u64;
+    let mut seconds: Vec<f64> = (0..runs)
+        .map(|_| {
+            events = 0;
+            let mut game = Game::new(Arc::clone(table));
+            let mut player = Inputs::new(simulation);
+            let mut inputs = Vec::new();
+            let plays = simulation.player != Player::Nobody;
+            let begun = Clock::now();
+            for _ in 0..ticks {
+                if plays {
+                    player.choose(&game, &mut inputs);
+                }
+                game.step(&inputs);
+                events += game.world().events().len() as u64;
+            }
+            begun.elapsed().as_secs_f64()
+        })
+        .collect();
+    seconds.sort_by(f64::total_cmp);
+    let nanoseconds = seconds[seconds.len() / 2] * 1e9;
+    let world_seconds = ticks as f64 * table.scene.tick_seconds;
+    json!({
+        "ns_per_simulated_second": nanoseconds / world_seconds,
+        "ns_per_tick": nanoseconds / ticks as f64,
+        "ns_per_event": if events > 0 { json!(nanoseconds / events as f64) } else { Value::Null },
+        "events": events,
+    })
+}
+
+/// Plays a replay on its table and tells the outcome like [`run`]: its own checkpoints must agree.
+///
+/// # Errors
+/// If the replay is of another table or physics, or does not arrive where it says.
+pub fn replay(table: &Arc<Table>, replay: &Replay) -> Result<(), String> {
+    replay.play(Arc::clone(table), |_| ()).map(|_| ()).map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -62,10 +233,13 @@ mod tests {
     #[test]
     fn the_same_table_time_and_seed_give_the_same_line() {
         let table = load_table("classic").expect("it is shipped");
-        let line = |seed| run(&table, Simulation { seconds: 30.0, bot: true, seed });
+        let line = |seed| {
+            let simulation = Simulation { seconds: 30.0, player: Player::Bot, seed };
+            run(&table, &simulation, None, None).expect("nothing is written").1
+        };
         assert_eq!(line(1), line(1));
         assert_ne!(line(1), line(2));
-        let told: serde_json::Value = serde_json::from_str(&line(1)).expect("JSON");
+        let told = line(1);
         assert_eq!(told["ticks"], 30_000);
         assert!(told["score"].as_u64().is_some_and(|score| score > 0), "{told}");
         assert!(told["digest"].as_str().is_some_and(|digest| digest.len() == 16), "{told}");

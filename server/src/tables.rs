@@ -1,9 +1,10 @@
 //! Tables by name: shipped ones, and files.
 
 use std::io::Read;
+use std::path::Path;
 use std::sync::Arc;
 
-use shared::table::{MOST_TEXT, SHIPPED, Table};
+use shared::table::{MOST_SCENE_TEXT, SHIPPED, Table};
 
 /// The shipped table called `name`, or else the one in the file of that name.
 ///
@@ -17,15 +18,21 @@ pub fn load_table(name: &str) -> Result<Arc<Table>, String> {
     table.map(Arc::new).map_err(|error| error.to_string())
 }
 
-/// Reads one byte more than a table may have at the most: enough to refuse it, whatever the file is.
 fn read(name: &str) -> Result<String, String> {
     let no_table = |error: std::io::Error| {
         let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
         format!("{name:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
     };
-    let file = std::fs::File::open(name).map_err(no_table)?;
+    load_text(name.as_ref(), MOST_SCENE_TEXT).map_err(no_table)
+}
+
+/// The text in a file, cut one byte after `most`: enough to refuse it, whatever the file is.
+///
+/// # Errors
+/// If the file cannot be read, or is no text.
+pub fn load_text(path: &Path, most: usize) -> std::io::Result<String> {
     let mut source = String::new();
-    file.take(MOST_TEXT as u64 + 1).read_to_string(&mut source).map_err(no_table)?;
+    std::fs::File::open(path)?.take(most as u64 + 1).read_to_string(&mut source)?;
     Ok(source)
 }
 

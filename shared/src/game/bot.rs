@@ -126,7 +126,7 @@ impl Bot {
     fn think(&mut self, game: &Game, seen: Sight, tick: u64, act: &mut impl FnMut(Action)) {
         let scene = &game.table().scene;
         let dt = scene.tick_seconds;
-        let on_plunger = scene.plungers.iter().any(|p| p.distance(0.0, seen.position) < 1.5 * scene.ball_radius);
+        let on_plunger = scene.plungers.iter().any(|p| p.distance(0.0, seen.position) < 1.5 * scene.radius(0));
         if on_plunger && seen.velocity.length() < 0.05 && self.plunge_at.is_none() && tick >= self.plunger_quiet_until {
             let pull = self.rng.between(0.7, 1.0);
             act(Action::Pull((pull * f64::from(u16::MAX)) as u16));
@@ -139,7 +139,7 @@ impl Bot {
                 continue;
             }
             let target = spec.length * self.rng.between(0.55, 0.95);
-            if let Some(arrival) = arrival(spec, scene.gravity, scene.ball_radius, seen, target) {
+            if let Some(arrival) = arrival(spec, scene.gravity, scene.radius(0), seen, target) {
                 let press = arrival - SWING_TIME + self.rng.gaussian() * TIMING_ERROR;
                 let press = if press > 0.0 { press } else { 0.0 };
                 let hold = self.rng.between(HOLD.0, HOLD.1);

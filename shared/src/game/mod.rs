@@ -55,8 +55,22 @@ impl Game {
     }
 
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
+    #[inline]
     pub fn step(&mut self, inputs: &[Input]) -> &[GameEvent] {
         self.events.clear();
+        // A bare scene has no rules: its world moves, and that is all.
+        if !self.table.has_rules {
+            self.now = self.world.state().tick;
+            if !self.world.step().is_empty() {
+                self.show_physics();
+            }
+            return &self.events;
+        }
+        self.step_by_rules(inputs);
+        &self.events
+    }
+
+    fn step_by_rules(&mut self, inputs: &[Input]) {
         let tick = self.world.state().tick;
         self.now = tick;
         // 1. What players do.
@@ -72,7 +86,15 @@ impl Game {
         // 5. A lost ball ends the turn; a stuck one is served again.
         self.end_turn_when_lost();
         self.free_stuck_ball();
-        &self.events
+    }
+
+    /// Tells what happened in a world without rules.
+    fn show_physics(&mut self) {
+        for event in self.world.events() {
+            if let Some(kind) = GameEventKind::of_physics(event) {
+                self.events.push(GameEvent { tick: self.now, kind });
+            }
+        }
     }
 
     /// The tick that the next step plays.
@@ -316,7 +338,7 @@ impl Game {
     fn free_stuck_ball(&mut self) {
         let now = Instant::start_of(self.world.state().tick);
         let scene = &self.table.scene;
-        let (radius, slow) = (scene.ball_radius, STILL * scene.ball_radius);
+        let (radius, slow) = (scene.radius(0), STILL * scene.radius(0));
         let state = self.world.state();
         // In a cradle a ball lies still, too.
         let held = state.flippers.iter().any(|flipper| flipper.pressed);

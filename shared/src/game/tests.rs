@@ -423,7 +423,7 @@ fn a_minute_of_the_bot_on_classic_is_what_it_always_was() {
     let late = game.digest();
     assert_eq!(
         (early, late),
-        (0x6a66_fadd_8afb_49bf, 0xcd5d_52c5_f5ac_b110),
+        (0xe5d7_9353_b69d_bff7, 0x80f8_540e_d782_da26),
         "{early:#018x} after 5 s, {late:#018x} after 60 s"
     );
 }

@@ -17,6 +17,20 @@ impl Roots {
         self.count += 1;
     }
 
+    /// One number.
+    pub fn one(root: f64) -> Self {
+        Self { values: [root, 0.0, 0.0, 0.0], count: 1 }
+    }
+
+    /// Those that are wanted.
+    pub fn filtered(&self, is_wanted: impl Fn(f64) -> bool) -> Self {
+        let mut wanted = Self::default();
+        for &root in self.as_slice().iter().filter(|&&root| is_wanted(root)) {
+            wanted.push(root);
+        }
+        wanted
+    }
+
     /// The roots, ascending.
     pub fn as_slice(&self) -> &[f64] {
         &self.values[..self.count]

@@ -18,6 +18,15 @@ impl Instant {
         Self { tick, offset: 0.0 }
     }
 
+    /// The instant `seconds` later, which must not be negative.
+    pub fn later_by(self, seconds: f64, tick_seconds: f64) -> Self {
+        let offset = self.offset + seconds;
+        // A cast saturates.
+        let ticks = (offset / tick_seconds) as u64;
+        let offset = offset - ticks as f64 * tick_seconds;
+        Self { tick: self.tick.saturating_add(ticks), offset: if offset > 0.0 { offset } else { 0.0 } }
+    }
+
     /// Seconds from `earlier` to this instant, at `tick_seconds` a tick.
     pub fn since(self, earlier: Self, tick_seconds: f64) -> f64 {
         let ticks = if self.tick >= earlier.tick {
@@ -83,10 +92,14 @@ pub enum Support {
 }
 
 /// A ball in play.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
     /// Never used twice in a world.
     pub id: u32,
+    /// Its size and mass, by their place among the scene's kinds of ball.
+    pub kind: u8,
+    /// The floor that it is on; 0 is the playfield.
+    pub floor: u8,
     /// Where it is and how it moves.
     pub flight: Flight,
     /// About the playfield's normal, rad/s, counter-clockwise.

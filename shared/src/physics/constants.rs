@@ -2,7 +2,7 @@
 
 /// Version of the physics. A change that alters any trajectory must raise it, since scores, replays and golden digests
 /// are only valid for the version that they were made with.
-pub const PHYSICS_VERSION: u32 = 1;
+pub const PHYSICS_VERSION: u32 = 2;
 
 /// Share of a tangential force that accelerates a solid sphere which rolls along a surface: 1 / (1 + 2/5), no unit.
 /// The rest goes into its spin.
@@ -28,8 +28,29 @@ pub const GRAZE: f64 = 1.0 / (1_u64 << 46) as f64;
 /// through. Larger: a ball that passes a gate from behind is caught by it.
 pub const DEEPEST_OVERLAP: f64 = 0.5;
 
-/// Length of path, in table heights, that one search for the next impact covers. Only cost depends on it.
-pub const SEARCH_LENGTH: f64 = 0.25;
+/// Longest part of a flight that is searched, seconds: 30,000 years. Beyond, a subnormal speed makes times infinite.
+pub const LONGEST_FLIGHT: f64 = 1e12;
+
+/// Share of a circle's reach by which the square around it is larger: more than the rounding of the times at which a
+/// flight enters and leaves it. Smaller: a graze right at the square's side is missed. Larger: only cost.
+pub const NEAR_MARGIN: f64 = 1e-9;
+
+/// Share of a ball's radius, and of a shape's coordinates, by which the box around a shape is larger than it must be. They
+/// cover the rounding of a flight's own box. Smaller: an impact at a box's very side is not looked for. Larger: only cost.
+pub const BOUNDS_MARGIN: f64 = 1e-6;
+/// See [`BOUNDS_MARGIN`].
+pub const BOUNDS_ROUNDING: f64 = 1e-12;
+
+/// Pieces of a flight, each about a cell of the broad phase long, that one search goes through before it says how far it
+/// came. Only cost depends on it.
+pub const MOST_PIECES: u32 = 4096;
+
+/// Parts into which the pixel model cuts a tick at the most: beyond, a step is longer than a pixel.
+pub const MOST_PARTS_PER_TICK: u32 = 1_000_000;
+
+/// Steps of Newton's method on a convex polynomial. About six reach a simple root, thirty a double one; the rest is for
+/// brackets of many decades.
+pub const MOST_NEWTON_STEPS: u32 = 100;
 
 /// Parts of a tick into which the search for an impact with a moving flipper divides it at the least. At 20 m/s and
 /// 1 kHz a part is 0.3 mm: a graze shallower than a micrometre can be missed, a crossing cannot.
@@ -39,12 +60,16 @@ pub const MOVER_PARTS: u32 = 64;
 pub const MOVER_HALVINGS: u32 = 40;
 
 /// Impacts of one ball within one tick after which it is taken to lie still for the rest of that tick. Infinitely many
-/// impacts in finite time (a ball in a V) end here if the table's rest speed has not ended them before.
+/// impacts in finite time (a ball in a V) end here if it has not come to rest before. Smaller: a ball that rattles between
+/// two posts is stopped. Larger: such a ball costs more.
 pub const MOST_IMPACTS_PER_TICK: u32 = 200;
 
-/// Table heights that a ball may fly within one tick in a state that is restored; a real one flies 0.02. Larger: a state
+/// The same for long ticks: impacts a second, as many as that in a tick of a millisecond.
+pub const MOST_IMPACTS_PER_SECOND: f64 = 2e5;
+
+/// Table heights that a ball may fly within a second in a state that is restored; a real one flies 10. Larger: a state
 /// from the network can keep a step busy for seconds.
-pub const MOST_HEIGHTS_PER_TICK: f64 = 100.0;
+pub const MOST_HEIGHTS_PER_SECOND: f64 = 1e5;
 
 /// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
 pub const FLIPPER_STOP_SPEED: f64 = 1.0;
@@ -76,13 +101,10 @@ pub const LOST_CONTACT: f64 = 0.01;
 /// Ball radii from a target's place within which a ball keeps the target from rising: a hundredth more than a touch.
 pub const CLEAR_OF_TARGET: f64 = 1.01;
 
-/// Share of the part of a flight that was searched by which Newton's last steps may move a root. More than that is no
-/// polish but another root.
+/// Share of the time to an impact by which Newton's last steps may move it. More than that is no polish: a graze without
+/// slope, or a hop so short that the surface is known better than the coordinates are.
 pub const POLISH_STEP: f64 = 1e-6;
 
 /// Impacts with a moving surface within one tick after which no bounce is left: a ball between a rising flipper and a
 /// wall is pushed, not hammered.
 pub const PLASTIC_AFTER: u32 = MOST_IMPACTS_PER_TICK / 4;
-
-/// Parts of a tick that one search covers at the least, so that no speed makes a tick endless.
-pub const MOST_SEARCHES_PER_TICK: f64 = 16.0;

@@ -6,6 +6,7 @@ use super::ball::Support;
 use super::constants::{SLIDE_ROUNDING, SLIP_SHARE, SMOOTH_JOINT, SPHERE_INERTIA, WEDGE_SPEEDS};
 use super::scene::{Collider, Material, Scene};
 use super::shapes::{Shape, Side};
+use super::two_body::after_impact;
 use crate::math::tangent;
 
 /// The surface that a ball meets, as it is at the moment and point of impact.
@@ -49,11 +50,47 @@ pub fn respond(velocity: DVec2, spin: f64, radius: f64, mass: f64, surface: &Sur
     let slip = relative.dot(along) + spin * radius;
     let most = surface.material.friction * pushed;
     let change = -(SLIP_SHARE * slip).clamp(-most, most);
+    let lost = (1.0 - surface.material.tangential) * relative.dot(along);
     Response {
-        velocity: velocity + surface.normal * pushed + along * change,
+        velocity: velocity + surface.normal * pushed + along * (change - lost),
         spin: spin + change / (SPHERE_INERTIA * radius),
         impulse,
     }
+}
+
+/// A ball that meets another.
+#[derive(Debug, Clone, Copy)]
+pub struct Body {
+    /// m/s.
+    pub velocity: DVec2,
+    /// rad/s.
+    pub spin: f64,
+    /// m.
+    pub radius: f64,
+    /// kg.
+    pub mass: f64,
+}
+
+/// The impulse between two balls: along `normal`, the unit vector from the second to the first, the manual's two-body
+/// formula; along the surface Coulomb friction up to the point where they roll on each other. Velocity and spin of both.
+pub fn respond_pair(one: &Body, other: &Body, normal: DVec2, material: &Material) -> [(DVec2, f64); 2] {
+    let along = tangent(normal);
+    let relative = one.velocity - other.velocity;
+    let approach = -relative.dot(normal);
+    let approach = if approach > 0.0 { approach } else { 0.0 };
+    let restitution = material.restitution_at(approach);
+    let (pushed_one, pushed_other) = if approach > 0.0 {
+        after_impact(one.velocity, other.velocity, one.mass, other.mass, normal, restitution)
+    } else {
+        (one.velocity, other.velocity)
+    };
+    let reduced_mass = 1.0 / (1.0 / one.mass + 1.0 / other.mass);
+    let push = (1.0 + restitution) * approach * reduced_mass;
+    let slip = relative.dot(along) + (one.spin * one.radius + other.spin * other.radius);
+    let most = material.friction * push;
+    let drag = -(SLIP_SHARE * slip * reduced_mass).clamp(-most, most);
+    let spun = |body: &Body| body.spin + drag / (SPHERE_INERTIA * body.mass * body.radius);
+    [(pushed_one + along * (drag / one.mass), spun(one)), (pushed_other - along * (drag / other.mass), spun(other))]
 }
 
 /// A surface that a ball touches.
@@ -66,15 +103,17 @@ struct Touch {
     friction: f64,
     share: f64,
     round: bool,
+    /// Square of the normal speed, m^2/s^2 for each m/s^2 of press, whose hop is lost in the rounding of the coordinates.
+    lost_hop: f64,
 }
 
 impl Touch {
-    fn new(scene: &Scene, collider: u16, position: DVec2) -> Self {
+    fn new(scene: &Scene, radius: f64, collider: u16, position: DVec2) -> Self {
         let Collider { shape, material, .. } = &scene.colliders[usize::from(collider)];
         let (curvature, round) = match shape {
             Shape::Segment(_) => (0.0, false),
             Shape::Arc(arc) => {
-                let path = arc.reach(scene.ball_radius);
+                let path = arc.reach(radius);
                 (if arc.side == Side::Outside { 1.0 / path } else { -1.0 / path }, true)
             }
         };
@@ -85,7 +124,16 @@ impl Touch {
             friction: material.friction,
             share: material.rolling_share(),
             round,
+            lost_hop: 2.0 * f64::EPSILON * (position.abs().max_element() + radius),
         }
+    }
+
+    /// Square of the normal speed, m^2/s^2, below which the ball stays: the table's, or that of a hop lost in rounding.
+    fn rest_square(&self, scene: &Scene, velocity: DVec2) -> f64 {
+        let press = self.press(scene.gravity, velocity);
+        let lost = if press > 0.0 { self.lost_hop * press } else { 0.0 };
+        let square = scene.rest_speed * scene.rest_speed;
+        if square > lost { square } else { lost }
     }
 
     /// Acceleration with which a ball that moves along the surface is pressed against it; not positive: it lifts off.
@@ -127,6 +175,7 @@ pub struct Settled {
 /// Decides how a ball goes on that touches the collider `hit` and, until now, lay on `before`.
 pub fn settle(
     scene: &Scene,
+    radius: f64,
     position: DVec2,
     velocity: DVec2,
     spin: f64,
@@ -136,14 +185,17 @@ pub fn settle(
     let free = Settled { velocity, acceleration: scene.gravity, spin, support: Support::None };
     let mut velocity = velocity;
     let mut held: [Option<Touch>; 2] = [None, None];
+    let mut still_square = 0.0;
     for (place, collider) in held.iter_mut().zip([hit, before]) {
-        let Some(touch) = collider.map(|collider| Touch::new(scene, collider, position)) else { continue };
+        let Some(touch) = collider.map(|collider| Touch::new(scene, radius, collider, position)) else { continue };
         let speed = velocity.dot(touch.normal);
         // `hit` was just met, so it is not approached; `before` may be pressed into by the new velocity: then the next
         // search finds an impact with it.
-        if speed <= scene.rest_speed && speed >= -scene.rest_speed {
+        let rest_square = touch.rest_square(scene, velocity);
+        if speed * speed <= rest_square {
             velocity -= touch.normal * speed;
             *place = Some(touch);
+            still_square = if rest_square > still_square { rest_square } else { still_square };
         }
     }
     let [first, second] = held;
@@ -158,13 +210,15 @@ pub fn settle(
         let speed = velocity.dot(along);
         let slid = along * speed;
         let acceleration = touch.acceleration(scene.gravity, slid);
-        if other.is_none_or(|other| touch.continues(&other) || clears(&other, slid, acceleration, scene.rest_speed)) {
-            let spin = if touch.friction > 0.0 { -speed / scene.ball_radius } else { spin };
+        if other.is_none_or(|other| touch.continues(&other) || clears(&other, slid, acceleration, still_square)) {
+            let spin = if touch.friction > 0.0 { -speed / radius } else { spin };
             return Settled { velocity: slid, acceleration, spin, support: touch.support() };
         }
     }
     match (first, second) {
-        (Some(first), Some(second)) if pressed_by_any && velocity.length() <= WEDGE_SPEEDS * scene.rest_speed => {
+        (Some(first), Some(second))
+            if pressed_by_any && velocity.length_squared() <= WEDGE_SPEEDS * WEDGE_SPEEDS * still_square =>
+        {
             let still = Settled {
                 velocity: DVec2::ZERO,
                 acceleration: DVec2::ZERO,
@@ -176,7 +230,7 @@ pub fn settle(
                 .into_iter()
                 .filter(|(touch, _)| touch.press(scene.gravity, DVec2::ZERO) > 0.0)
                 .map(|(touch, other)| (touch, other, touch.acceleration(scene.gravity, DVec2::ZERO)))
-                .find(|(_, other, acceleration)| clears(other, DVec2::ZERO, *acceleration, scene.rest_speed))
+                .find(|(_, other, acceleration)| clears(other, DVec2::ZERO, *acceleration, still_square))
                 .map_or(still, |(touch, _, acceleration)| Settled { acceleration, support: touch.support(), ..still })
         }
         _ => Settled { velocity, ..free },
@@ -184,10 +238,10 @@ pub fn settle(
 }
 
 /// Whether a ball that slides with this velocity and acceleration does not run into `other`.
-fn clears(other: &Touch, velocity: DVec2, acceleration: DVec2, rest_speed: f64) -> bool {
+fn clears(other: &Touch, velocity: DVec2, acceleration: DVec2, rest_square: f64) -> bool {
     let speed = velocity.dot(other.normal);
     let pull = acceleration.dot(other.normal) + other.curvature * velocity.length_squared();
-    speed > rest_speed
+    (speed > 0.0 && speed * speed > rest_square)
         || (speed >= -SLIDE_ROUNDING * velocity.length() && pull >= -SLIDE_ROUNDING * acceleration.length())
 }
 
@@ -195,7 +249,7 @@ fn clears(other: &Touch, velocity: DVec2, acceleration: DVec2, rest_speed: f64) 
 mod tests {
     use super::*;
 
-    const RUBBER: Material = Material { restitution: 0.8, falloff: 0.3, friction: 0.6 };
+    const RUBBER: Material = Material { restitution: 0.8, falloff: 0.3, friction: 0.6, tangential: 1.0 };
 
     fn floor(material: Material) -> Surface {
         Surface { normal: DVec2::Y, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick: 0.0 }
@@ -226,8 +280,7 @@ mod tests {
 
     #[test]
     fn a_movable_surface_shares_the_impulse() {
-        let surface =
-            Surface { inverse_mass: 1.0 / 0.08, ..floor(Material { restitution: 1.0, falloff: 0.0, friction: 0.0 }) };
+        let surface = Surface { inverse_mass: 1.0 / 0.08, ..floor(Material::bouncing(1.0)) };
         let after = respond(DVec2::new(0.0, -1.0), 0.0, 0.0135, 0.08, &surface);
         assert!(after.velocity.length() < 1e-15, "equal masses swap velocities");
     }

@@ -58,12 +58,13 @@ impl World {
         for ball in self.state.balls.iter().filter(|ball| ball.support == Support::Flipper(index as u16)) {
             let (position, velocity) = ball.at(Instant::start_of(self.state.tick), scene.tick_seconds);
             let center = position + velocity * later;
-            let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.ball_radius);
+            let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.radius(ball.kind));
+            let mass = scene.mass(ball.kind);
             // What the flipper must push the ball with, beyond the change of its own turn.
             let push = carried.acceleration - scene.gravity.dot(carried.normal);
             if carried.lever * drive / spec.inertia + push > 0.0 {
-                torque -= scene.ball_mass * carried.lever * push;
-                inertia += scene.ball_mass * carried.lever * carried.lever;
+                torque -= mass * carried.lever * push;
+                inertia += mass * carried.lever * carried.lever;
             }
         }
         torque / inertia
@@ -72,7 +73,7 @@ impl World {
     /// Mass of the balls lying on a plunger.
     fn plunger_load(&self, index: usize) -> f64 {
         let lying = self.state.balls.iter().filter(|ball| ball.support == Support::Plunger(index as u16));
-        lying.count() as f64 * self.scene.ball_mass
+        lying.fold(0.0, |sum, ball| sum + self.scene.mass(ball.kind))
     }
 
     /// 4. Carries flippers and plungers over to the next tick.

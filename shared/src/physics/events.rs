@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::constants::{MOST_IMPACTS_PER_TICK, PLASTIC_AFTER};
-use super::contact::{Response, Surface, respond, settle};
+use super::constants::PLASTIC_AFTER;
+use super::contact::{Body, Response, Surface, respond, respond_pair, settle};
 use super::flipper::FlipperRest;
-use super::motion::Next;
-use super::movers::{BallInTick, Mover, first_impact};
+use super::motion::{Next, Span};
+use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact};
 use super::scene::{Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
@@ -21,9 +21,11 @@ enum Happening {
     /// A ball's event among the static shapes.
     Static(usize, Next),
     /// A ball meets a moving flipper.
-    Flipper(usize, usize, DVec2),
+    Flipper(usize, usize, MoverImpact),
     /// A ball meets a moving plunger.
-    Plunger(usize, usize, DVec2),
+    Plunger(usize, usize, MoverImpact),
+    /// Two balls meet, the one with the lower place first.
+    Balls(usize, usize),
     /// A flipper reaches an end stop, `true`: the upper one.
     FlipperStop(usize, bool),
     /// A plunger that was let go reaches home.
@@ -38,8 +40,9 @@ impl World {
             clock = offset;
             match happening {
                 Happening::Static(ball, next) => self.meet_static(ball, next, offset),
-                Happening::Flipper(ball, flipper, normal) => self.meet_flipper(ball, flipper, normal, offset),
-                Happening::Plunger(ball, plunger, normal) => self.meet_plunger(ball, plunger, normal, offset),
+                Happening::Flipper(ball, flipper, impact) => self.meet_flipper(ball, flipper, impact),
+                Happening::Plunger(ball, plunger, impact) => self.meet_plunger(ball, plunger, impact),
+                Happening::Balls(one, other) => self.meet_balls(one, other, offset),
                 Happening::FlipperStop(flipper, raised) => self.stop_flipper(flipper, raised, offset),
                 Happening::PlungerHome(plunger) => self.stop_plunger(plunger, offset),
             }
@@ -61,6 +64,12 @@ impl World {
                 limit = offset;
                 earliest = Some((offset, happening));
             }
+        }
+        if self.scene.needs.ball_ball
+            && let Some((offset, one, other)) = self.next_meeting(clock, limit)
+        {
+            limit = offset;
+            earliest = Some((offset, Happening::Balls(one, other)));
         }
         for index in 0..self.flipper_motions.len() {
             if let Some((offset, raised)) =
@@ -87,7 +96,12 @@ impl World {
             return None;
         }
         let elapsed = Instant::start_of(self.state.tick).since(subject.flight.start, dt);
-        let in_tick = BallInTick { flight: &subject.flight, elapsed, radius: self.scene.ball_radius };
+        let radius = self.radius(ball);
+        let in_tick = BallInTick { flight: &subject.flight, elapsed, radius };
+        let begins = if elapsed < 0.0 { -elapsed } else { 0.0 };
+        let span = Span { from: elapsed + begins, to: elapsed + dt };
+        let parts = self.scene.motion.model().parts(&self.scene, &subject.flight, span);
+        let moments = parts.map(|parts| Moments { first: begins, step: (dt - begins) / f64::from(parts), parts });
         let mut limit = limit;
         let mut first = None;
         for index in 0..self.flipper_motions.len() {
@@ -95,14 +109,12 @@ impl World {
             let flight = &subject.flight;
             let travel = (flight.velocity_at(elapsed).length() + flight.acceleration.length() * dt) * dt;
             let distance = (subject.flight.position_at(elapsed) - flipper.spec.pivot).length();
-            if subject.support == Support::Flipper(index as u16)
-                || distance > flipper.spec.reach() + self.scene.ball_radius + travel
-            {
+            if subject.support == Support::Flipper(index as u16) || distance > flipper.spec.reach() + radius + travel {
                 continue;
             }
-            if let Some((offset, normal)) = first_impact(&in_tick, &flipper, clock, limit, dt) {
-                limit = offset;
-                first = Some((offset, Happening::Flipper(ball, index, normal)));
+            if let Some(impact) = first_impact(&in_tick, &flipper, moments, clock, limit, dt) {
+                limit = impact.offset;
+                first = Some((limit, Happening::Flipper(ball, index, impact)));
             }
         }
         for index in 0..self.plunger_motions.len() {
@@ -110,9 +122,9 @@ impl World {
             if subject.support == Support::Plunger(index as u16) {
                 continue;
             }
-            if let Some((offset, normal)) = first_impact(&in_tick, &plunger, clock, limit, dt) {
-                limit = offset;
-                first = Some((offset, Happening::Plunger(ball, index, normal)));
+            if let Some(impact) = first_impact(&in_tick, &plunger, moments, clock, limit, dt) {
+                limit = impact.offset;
+                first = Some((limit, Happening::Plunger(ball, index, impact)));
             }
         }
         first
@@ -134,7 +146,11 @@ impl World {
     fn meet_static(&mut self, ball: usize, next: Next, offset: f64) {
         let t = next.time();
         let flight = self.state.balls[ball].flight;
-        let position = flight.position_at(t);
+        let position = match next {
+            Next::Meets { position, .. } => position,
+            Next::ClearUntil(_) | Next::LeavesSupport(_) => flight.position_at(t),
+        };
+        let velocity = flight.velocity_at(t);
         if !self.scene.is_inside(position) {
             self.take_out(ball, offset, position, EventKind::Escaped);
             return;
@@ -142,20 +158,27 @@ impl World {
         match next {
             Next::ClearUntil(_) => {}
             Next::LeavesSupport(_) => {
-                self.refresh_spin(ball, position, flight.velocity_at(t));
-                self.start_flight(ball, offset, position, flight.velocity_at(t), None, None);
+                self.refresh_spin(ball, position, velocity);
+                self.start_flight(ball, offset, position, velocity, None, None);
             }
-            Next::Meets(_, index) => {
+            Next::Meets { collider: index, .. } => {
                 let collider = self.scene.colliders[usize::from(index)];
                 match collider.role {
                     Role::Sensor => {
                         self.state.balls[ball].past = Some((t, index));
                         self.next[ball] = None;
-                        self.emit(ball, offset, position, EventKind::Passed { element: collider.element });
+                        self.emit(ball, offset, position, velocity, EventKind::Passed { element: collider.element });
+                    }
+                    Role::Hole { to } => {
+                        self.emit(ball, offset, position, velocity, EventKind::Passed { element: collider.element });
+                        self.state.balls[ball].floor = to;
+                        self.start_flight(ball, offset, position, velocity, None, None);
+                        // The other floor may have the same line as its own way back: it is passed already.
+                        self.state.balls[ball].past = Some((0.0, u16::MAX));
                     }
                     Role::Drain => self.take_out(ball, offset, position, EventKind::Drained),
                     Role::Solid | Role::Kicker { .. } | Role::Target { .. } => {
-                        self.bounce(ball, index, offset, position, flight.velocity_at(t));
+                        self.bounce(ball, index, offset, position, velocity);
                     }
                 }
             }
@@ -165,7 +188,7 @@ impl World {
     /// An impact with a static shape.
     fn bounce(&mut self, ball: usize, index: u16, offset: f64, position: DVec2, velocity: DVec2) {
         self.impacts[ball] += 1;
-        if self.impacts[ball] > MOST_IMPACTS_PER_TICK {
+        if self.impacts[ball] > self.most_impacts {
             self.stall(ball, offset, position);
             return;
         }
@@ -184,14 +207,15 @@ impl World {
             Role::Target { threshold, .. } if speed >= threshold => kind = EventKind::Felled { element, speed },
             _ => {}
         }
-        // Contact at rest is no news, but whatever acts always is.
-        if speed > scene.rest_speed || !matches!(kind, EventKind::Touched { .. }) {
-            self.emit(ball, offset, position, kind);
-        }
         self.refresh_spin(ball, position, velocity);
         let surface = Surface { normal, velocity: DVec2::ZERO, material: collider.material, inverse_mass: 0.0, kick };
-        let after = respond(velocity, self.state.balls[ball].spin, scene.ball_radius, scene.ball_mass, &surface);
+        let (radius, mass) = (self.radius(ball), self.mass(ball));
+        let after = respond(velocity, self.state.balls[ball].spin, radius, mass, &surface);
         self.state.balls[ball].spin = after.spin;
+        // Contact at rest is no news, but whatever acts always is.
+        if speed > scene.rest_speed || !matches!(kind, EventKind::Touched { .. }) {
+            self.emit(ball, offset, position, after.velocity, kind);
+        }
         let before = match self.state.balls[ball].support {
             Support::Line(i) | Support::Arc(i) => Some(i),
             _ => None,
@@ -228,19 +252,21 @@ impl World {
         ball_state.flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: DVec2::ZERO };
         ball_state.support = Support::Stalled;
         ball_state.past = Some((0.0, u16::MAX));
+        self.flight_changed(ball);
         self.next[ball] = Some(Next::ClearUntil(f64::INFINITY));
     }
 
-    fn meet_flipper(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
+    fn meet_flipper(&mut self, ball: usize, index: usize, impact: MoverImpact) {
         let Some(flipper) = self.moving_flipper(index) else { return };
-        let (position, velocity) = self.ball_at(ball, offset);
-        if self.impacts[ball] >= MOST_IMPACTS_PER_TICK {
+        let MoverImpact { offset, normal, position } = impact;
+        let (_, velocity) = self.ball_at(ball, offset);
+        if self.impacts[ball] >= self.most_impacts {
             self.stall(ball, offset, position);
             return;
         }
-        let surface = flipper.surface(offset, position, normal, self.scene.ball_radius);
-        let contact = position - normal * self.scene.ball_radius;
-        let lever = flipper.lever(contact, normal);
+        let radius = self.radius(ball);
+        let surface = flipper.surface(offset, position, normal, radius);
+        let lever = flipper.lever(position - normal * radius, normal);
         let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
         let after = self.push_by(ball, offset, position, velocity, &surface, element);
         motion.swing = motion.swing_at(offset);
@@ -253,14 +279,15 @@ impl World {
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Flipper(index as u16));
     }
 
-    fn meet_plunger(&mut self, ball: usize, index: usize, normal: DVec2, offset: f64) {
+    fn meet_plunger(&mut self, ball: usize, index: usize, impact: MoverImpact) {
         let Some(plunger) = self.moving_plunger(index) else { return };
-        let (position, velocity) = self.ball_at(ball, offset);
-        if self.impacts[ball] >= MOST_IMPACTS_PER_TICK {
+        let MoverImpact { offset, normal, position } = impact;
+        let (_, velocity) = self.ball_at(ball, offset);
+        if self.impacts[ball] >= self.most_impacts {
             self.stall(ball, offset, position);
             return;
         }
-        let surface = plunger.surface(offset, position, normal, self.scene.ball_radius);
+        let surface = plunger.surface(offset, position, normal, self.radius(ball));
         let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
         let after = self.push_by(ball, offset, position, velocity, &surface, element);
         motion.pull = motion.pull_at(offset);
@@ -268,6 +295,56 @@ impl World {
         motion.from = offset;
         self.plunger_motions[index] = Some(motion);
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Plunger(index as u16));
+    }
+
+    /// Two balls meet.
+    fn meet_balls(&mut self, one: usize, other: usize, offset: f64) {
+        let scene = Arc::clone(&self.scene);
+        let mut places = [one, other].map(|ball| self.ball_at(ball, offset).0);
+        let velocities = [one, other].map(|ball| self.ball_at(ball, offset).1);
+        for ball in [one, other] {
+            self.impacts[ball] += 1;
+            if self.impacts[ball] > self.most_impacts {
+                let (position, _) = self.ball_at(ball, offset);
+                self.stall(ball, offset, position);
+                return;
+            }
+        }
+        let apart = places[0] - places[1];
+        let normal = apart.try_normalize().unwrap_or(DVec2::Y);
+        let overlap = self.radius(one) + self.radius(other) - apart.length();
+        // Models that notice an overlap only put the balls back where they touch.
+        if scene.motion.looks_now_and_then() && overlap > 0.0 {
+            places = [places[0] + normal * (0.5 * overlap), places[1] - normal * (0.5 * overlap)];
+        }
+        let mut material = scene.ball_material;
+        if self.impacts[one] > PLASTIC_AFTER || self.impacts[other] > PLASTIC_AFTER {
+            material.restitution = 0.0;
+        }
+        for (ball, (place, velocity)) in [one, other].into_iter().zip(places.into_iter().zip(velocities)) {
+            self.refresh_spin(ball, place, velocity);
+        }
+        let body = |ball: usize, velocity: DVec2| Body {
+            velocity,
+            spin: self.state.balls[ball].spin,
+            radius: self.radius(ball),
+            mass: self.mass(ball),
+        };
+        let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material);
+        let speed = -(velocities[0] - velocities[1]).dot(normal);
+        let ids = [one, other].map(|ball| self.state.balls[ball].id);
+        for (place, (ball, (velocity, spin))) in [one, other].into_iter().zip(after).enumerate() {
+            if speed > scene.rest_speed {
+                let kind = EventKind::Met { other: ids[1 - place], speed };
+                self.emit(ball, offset, places[place], velocity, kind);
+            }
+            self.state.balls[ball].spin = spin;
+            let before = match self.state.balls[ball].support {
+                Support::Line(i) | Support::Arc(i) => Some(i),
+                _ => None,
+            };
+            self.start_flight(ball, offset, places[place], velocity, None, before);
+        }
     }
 
     /// The impulse between a ball and a moving surface.
@@ -287,13 +364,14 @@ impl World {
         if self.impacts[ball] > PLASTIC_AFTER {
             surface.material.restitution = 0.0;
         }
-        if speed > self.scene.rest_speed {
-            self.emit(ball, offset, position, EventKind::Touched { element, speed });
-        }
         self.refresh_spin(ball, position, velocity);
+        let (radius, mass) = (self.radius(ball), self.mass(ball));
         let subject = &mut self.state.balls[ball];
-        let after = respond(velocity, subject.spin, self.scene.ball_radius, self.scene.ball_mass, &surface);
+        let after = respond(velocity, subject.spin, radius, mass, &surface);
         subject.spin = after.spin;
+        if speed > self.scene.rest_speed {
+            self.emit(ball, offset, position, after.velocity, EventKind::Touched { element, speed });
+        }
         after
     }
 
@@ -308,7 +386,7 @@ impl World {
         support: Support,
     ) {
         self.start_flight(ball, offset, position, velocity, None, None);
-        let contact = position - normal * self.scene.ball_radius;
+        let contact = position - normal * self.radius(ball);
         let surface_velocity = self.mover_velocity(support, offset, contact);
         let leaving = (velocity - surface_velocity).dot(normal);
         let stuck = self.impacts[ball] > PLASTIC_AFTER;
@@ -351,14 +429,20 @@ impl World {
         before: Option<u16>,
     ) {
         let spin = self.state.balls[ball].spin;
-        let settled = settle(&self.scene, position, velocity, spin, hit, before);
+        let settled = settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before);
         let start = Instant { tick: self.state.tick, offset };
         let subject = &mut self.state.balls[ball];
         subject.flight = Flight { start, position, velocity: settled.velocity, acceleration: settled.acceleration };
         subject.spin = settled.spin;
         subject.support = settled.support;
         subject.past = None;
+        self.flight_changed(ball);
+    }
+
+    /// A ball has a new flight: what it would have met is void.
+    pub(super) fn flight_changed(&mut self, ball: usize) {
         self.next[ball] = None;
+        self.meetings.flight_changed(ball);
     }
 
     /// The spin kept with a flight is that of its start; a ball that has since rolled along a surface has spun up.
@@ -367,21 +451,21 @@ impl World {
             let collider = &self.scene.colliders[usize::from(index)];
             if collider.material.friction > 0.0 {
                 let along = tangent(collider.shape.normal_at(position));
-                self.state.balls[ball].spin = -velocity.dot(along) / self.scene.ball_radius;
+                self.state.balls[ball].spin = -velocity.dot(along) / self.radius(ball);
             }
         }
     }
 
     fn take_out(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {
-        self.emit(ball, offset, position, kind);
-        self.state.balls.remove(ball);
-        self.next.remove(ball);
+        let (_, velocity) = self.ball_at(ball, offset);
+        self.emit(ball, offset, position, velocity, kind);
+        self.remove(ball);
         self.impacts.remove(ball);
     }
 
-    fn emit(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {
+    fn emit(&mut self, ball: usize, offset: f64, position: DVec2, velocity: DVec2, kind: EventKind) {
         let at = Instant { tick: self.state.tick, offset };
-        self.events.push(Event { at, ball: self.state.balls[ball].id, position, kind });
+        self.events.push(Event { at, ball: self.state.balls[ball].id, position, velocity, kind });
     }
 
     /// Centre and velocity of a ball at an offset within this tick.

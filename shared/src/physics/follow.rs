@@ -40,7 +40,7 @@ impl World {
         let (position, velocity) = self.ball_at(ball, offset);
         let collider = self.scene.colliders[usize::from(index)];
         let Shape::Arc(arc) = &collider.shape else { return };
-        let reach = arc.reach(self.scene.ball_radius);
+        let reach = arc.reach(self.radius(ball));
         let radial = position - arc.center;
         if !arc.spans(radial) {
             self.start_flight(ball, offset, position, velocity, None, None);
@@ -62,7 +62,7 @@ impl World {
 
     /// A ball on a moving surface takes over its normal velocity and acceleration, as long as that presses it.
     fn follow_mover(&mut self, ball: usize, support: Support, offset: f64) {
-        let radius = self.scene.ball_radius;
+        let radius = self.radius(ball);
         let (position, velocity) = self.ball_at(ball, offset);
         let Some(Nearest { distance, normal, .. }) = self.mover_nearest(support, offset, position) else {
             self.start_flight(ball, offset, position, velocity, None, None);
@@ -80,7 +80,7 @@ impl World {
         let leaving = (velocity - surface).dot(normal);
         let along = tangent(normal);
         let slide = (velocity - surface).dot(along);
-        let pull = self.mover_pull(support, offset, position, velocity);
+        let pull = self.mover_pull(support, offset, position, velocity, radius);
         // Pressed on by less than nothing: it flies.
         if leaving > self.scene.rest_speed || pull <= self.scene.gravity.dot(normal) {
             self.start_flight(ball, offset, position, velocity, None, None);
@@ -93,7 +93,7 @@ impl World {
         let middle = position + velocity * half;
         let (normal, pull) = self
             .mover_nearest(support, offset + half, middle)
-            .map(|nearest| (nearest.normal, self.mover_pull(support, offset + half, middle, velocity)))
+            .map(|nearest| (nearest.normal, self.mover_pull(support, offset + half, middle, velocity, radius)))
             .filter(|(normal, pull)| *pull > self.scene.gravity.dot(*normal))
             .unwrap_or((normal, pull));
         let along = tangent(normal);
@@ -103,7 +103,7 @@ impl World {
         subject.flight = Flight { start, position, velocity, acceleration };
         subject.spin = -slide / radius;
         subject.past = None;
-        self.next[ball] = None;
+        self.flight_changed(ball);
     }
 
     /// The moving surface that a ball lies on; `None` once it moves no more.
@@ -127,12 +127,12 @@ impl World {
     }
 
     /// Acceleration along the surface's normal of a ball that is carried by it.
-    fn mover_pull(&self, support: Support, offset: f64, center: DVec2, velocity: DVec2) -> f64 {
+    fn mover_pull(&self, support: Support, offset: f64, center: DVec2, velocity: DVec2, radius: f64) -> f64 {
         match support {
             Support::Flipper(i) => {
                 let Some(MovingFlipper { spec, motion }) = self.moving_flipper(usize::from(i)) else { return 0.0 };
                 let (swing, speed) = (motion.swing_at(offset), motion.speed_at(offset));
-                let carried = spec.carried(swing, speed, center, velocity, self.scene.ball_radius);
+                let carried = spec.carried(swing, speed, center, velocity, radius);
                 carried.acceleration + carried.lever * motion.acceleration
             }
             Support::Plunger(i) => {
@@ -148,7 +148,7 @@ impl World {
         let spec = &scene.flippers[index];
         let support = Support::Flipper(index as u16);
         let own = [Presence::FlipperAtRest(index as u16), Presence::FlipperRaised(index as u16)];
-        let reach = spec.reach() + 2.0 * scene.ball_radius;
+        let reach = spec.reach() + 2.0 * scene.largest_radius();
         self.surface_changed(support, own, offset, moves, |position| (position - spec.pivot).length() <= reach);
     }
 
@@ -158,7 +158,7 @@ impl World {
         let spec = &scene.plungers[index];
         let support = Support::Plunger(index as u16);
         let own = [Presence::PlungerHome(index as u16); 2];
-        let reach = spec.width + spec.stroke + 2.0 * scene.ball_radius;
+        let reach = spec.width + spec.stroke + 2.0 * scene.largest_radius();
         self.surface_changed(support, own, offset, moves, |position| (position - spec.from).length() <= reach);
     }
 
@@ -194,6 +194,7 @@ impl World {
                 let start = Instant { tick: self.state.tick, offset };
                 subject.flight = Flight { start, position, velocity, ..subject.flight };
                 subject.past = None;
+                self.meetings.flight_changed(ball);
             }
         }
     }

@@ -1,6 +1,7 @@
 //! The physics: balls among static shapes, flippers and plungers. It emits events and takes commands; it knows no score.
 
 pub mod ball;
+pub mod broad_phase;
 pub mod constants;
 pub mod contact;
 mod drive;
@@ -8,12 +9,15 @@ mod events;
 pub mod flipper;
 mod follow;
 pub mod impact;
+mod meetings;
 pub mod motion;
 mod movers;
+pub mod needs;
 pub mod plunger;
 pub mod scene;
 pub mod shapes;
 mod state;
+pub mod state_form;
 #[cfg(test)]
 mod tests;
 pub mod two_body;

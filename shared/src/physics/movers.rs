@@ -142,17 +142,37 @@ impl Mover for MovingPlunger<'_> {
     }
 }
 
-/// When, within the offsets `from..until` of the tick, a ball meets a moving body, and the normal there.
+/// The moments at which a model looks that does not look all the time: offsets within the tick.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moments {
+    pub(super) first: f64,
+    pub(super) step: f64,
+    pub(super) parts: u32,
+}
+
+/// A ball meets a moving body.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct MoverImpact {
+    /// Seconds into the tick.
+    pub(super) offset: f64,
+    /// Of the body, towards the ball.
+    pub(super) normal: DVec2,
+    /// Of the ball's centre, m: on the surface.
+    pub(super) position: DVec2,
+}
+
+/// When, within the offsets `from..until` of the tick, a ball meets a moving body.
 ///
 /// Conservative advancement (Mirtich 1996) with a least step of 1/64 tick, then bisection: the moving gap has no
-/// polynomial to solve.
+/// polynomial to solve. A model that looks at some moments only finds an overlap at one of them.
 pub(super) fn first_impact(
     ball: &BallInTick<'_>,
     mover: &impl Mover,
+    moments: Option<Moments>,
     from: f64,
     until: f64,
     tick_seconds: f64,
-) -> Option<(f64, DVec2)> {
+) -> Option<MoverImpact> {
     let gap = |offset: f64| mover.nearest(offset, ball.position(offset)).distance - ball.radius;
     let closing = |offset: f64| {
         let center = ball.position(offset);
@@ -163,26 +183,36 @@ pub(super) fn first_impact(
         // After an impact that took all of the bounce, a rounding is left; to meet that again would never end.
         (speed < -GRAZE * (velocity.length() + surface.length())).then_some(normal)
     };
+    if let Some(Moments { first, step, parts }) = moments {
+        let offsets = (0..parts).map(|part| first + step * f64::from(part));
+        return offsets.filter(|&offset| offset >= from && offset < until).find_map(|offset| {
+            let gap = gap(offset);
+            let normal = if gap <= 0.0 { closing(offset)? } else { return None };
+            Some(MoverImpact { offset, normal, position: ball.position(offset) - normal * gap })
+        });
+    }
+    let impact =
+        |offset: f64| closing(offset).map(|normal| MoverImpact { offset, normal, position: ball.position(offset) });
     let least_step = tick_seconds / f64::from(MOVER_PARTS);
     let fastest =
         mover.top_speed(until) + ball.velocity(from).length() + ball.flight.acceleration.length() * tick_seconds;
     let mut left = from;
     let mut gap_left = gap(left);
     if gap_left <= 0.0
-        && let Some(normal) = closing(left)
+        && let Some(impact) = impact(left)
     {
-        return Some((left, normal));
+        return Some(impact);
     }
     while left < until {
         let safe = gap_left / fastest;
         let step = if safe > least_step { safe } else { least_step };
         let right = if left + step < until { left + step } else { until };
         let gap_right = gap(right);
-        if gap_right <= 0.0 && gap_left > 0.0 {
-            let offset = bisect(gap, left, right);
-            if let Some(normal) = closing(offset) {
-                return Some((offset, normal));
-            }
+        if gap_right <= 0.0
+            && gap_left > 0.0
+            && let Some(impact) = impact(bisect(gap, left, right))
+        {
+            return Some(impact);
         }
         (left, gap_left) = (right, gap_right);
     }

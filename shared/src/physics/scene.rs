@@ -2,8 +2,11 @@
 
 use glam::DVec2;
 
+use super::broad_phase::Grid;
 use super::constants::ROLLING_SHARE;
 use super::flipper::FlipperSpec;
+use super::motion::Motion;
+use super::needs::Needs;
 use super::plunger::PlungerSpec;
 use super::shapes::{Bounds, Shape};
 
@@ -16,9 +19,16 @@ pub struct Material {
     pub falloff: f64,
     /// Coulomb coefficient.
     pub friction: f64,
+    /// Share of the tangential speed that an impact leaves, apart from friction: 1 but for the manual's own materials.
+    pub tangential: f64,
 }
 
 impl Material {
+    /// A surface that returns that share of the normal speed and does nothing else.
+    pub fn bouncing(restitution: f64) -> Self {
+        Self { restitution, falloff: 0.0, friction: 0.0, tangential: 1.0 }
+    }
+
     /// Share of a pull along the surface that accelerates a ball on it: some goes into spin where there is friction.
     pub fn rolling_share(&self) -> f64 {
         if self.friction > 0.0 { ROLLING_SHARE } else { 1.0 }
@@ -51,8 +61,20 @@ pub enum Role {
     },
     /// Notices its centre passing.
     Sensor,
+    /// A ball whose centre passes it drops, or climbs, to another floor.
+    Hole {
+        /// The floor that it leads to.
+        to: u8,
+    },
     /// Takes it out of play.
     Drain,
+}
+
+impl Role {
+    /// Whether a ball passes it, rather than being stopped by it.
+    pub fn is_passed(self) -> bool {
+        matches!(self, Self::Sensor | Self::Hole { .. } | Self::Drain)
+    }
 }
 
 /// When a collider is there.
@@ -85,23 +107,55 @@ pub struct Collider {
     pub role: Role,
     /// When it is there.
     pub presence: Presence,
+    /// The floor that it stands on; 0 is the playfield. Balls on others do not notice it.
+    pub floor: u8,
+}
+
+/// A size of ball.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallKind {
+    /// m.
+    pub radius: f64,
+    /// kg.
+    pub mass: f64,
+}
+
+/// A ball that is in play from the start.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StartBall {
+    /// Its place among the scene's kinds.
+    pub kind: u8,
+    /// Its centre, m.
+    pub position: DVec2,
+    /// m/s.
+    pub velocity: DVec2,
 }
 
 /// Everything that is fixed while a world runs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
+    /// How the next impact of a ball is found.
+    pub motion: Motion,
     /// Length of a tick.
     pub tick_seconds: f64,
+    /// The pixel model's step, m.
+    pub pixel: f64,
     /// Acceleration of a free ball, m/s^2.
     pub gravity: DVec2,
-    /// Normal speed after an impact below which a ball stays in contact, m/s.
+    /// Normal speed after an impact below which a ball stays in contact, m/s. At 0 it does where its next hop would be lost in
+    /// rounding.
     pub rest_speed: f64,
-    /// Radius of every ball, m.
-    pub ball_radius: f64,
-    /// Mass of every ball, kg.
-    pub ball_mass: f64,
-    /// Width and height of the playfield, m. A ball that leaves it by more than its radius has escaped.
-    pub size: DVec2,
+    /// The balls that there can be; at least one.
+    pub kinds: Vec<BallKind>,
+    /// What balls do to each other.
+    pub ball_material: Material,
+    /// Balls in play from the start.
+    pub start: Vec<StartBall>,
+    /// Where (0, 0) of this scene lies in the table's coordinates, m: a scene far from their origin has one of its own, so
+    /// that its coordinates keep their digits.
+    pub origin: DVec2,
+    /// A ball whose centre leaves these by more than its radius has escaped.
+    pub bounds: Bounds,
     /// Static shapes. Ties between simultaneous events go to the lowest index.
     pub colliders: Vec<Collider>,
     /// Flippers.
@@ -110,11 +164,50 @@ pub struct Scene {
     pub plungers: Vec<PlungerSpec>,
     /// How many targets can fall.
     pub targets: u16,
+    /// What this scene requires: of [`Self::built`].
+    pub needs: Needs,
+    /// The broad phase, where it is needed: of [`Self::built`].
+    pub grid: Option<Grid>,
 }
 
 impl Scene {
-    /// Whether a ball's centre is on the table, or beside it by its radius at the most.
+    /// The scene with what follows from its parts worked out: the boxes of its colliders, its needs, its broad phase.
+    #[must_use]
+    pub fn built(mut self) -> Self {
+        let largest = self.largest_radius();
+        for collider in &mut self.colliders {
+            collider.bounds = collider.shape.bounds(largest);
+        }
+        let needs = Needs::of(&self);
+        self.with_needs(needs)
+    }
+
+    /// The scene run with more than it needs, or with another broad phase. To leave out what it does need makes another
+    /// scene of it.
+    #[must_use]
+    pub fn with_needs(mut self, needs: Needs) -> Self {
+        self.needs = needs;
+        self.grid = needs.broad_phase.then(|| Grid::new(&self.colliders, self.largest_radius()));
+        self
+    }
+
+    /// Radius of the largest ball, m.
+    pub fn largest_radius(&self) -> f64 {
+        self.kinds.iter().fold(0.0, |largest, kind| if kind.radius > largest { kind.radius } else { largest })
+    }
+
+    /// Radius of a kind of ball, m.
+    pub fn radius(&self, kind: u8) -> f64 {
+        self.kinds[usize::from(kind)].radius
+    }
+
+    /// Mass of a kind of ball, kg.
+    pub fn mass(&self, kind: u8) -> f64 {
+        self.kinds[usize::from(kind)].mass
+    }
+
+    /// Whether a ball's centre is within the bounds, or beside them by the largest ball's radius at the most.
     pub fn is_inside(&self, position: DVec2) -> bool {
-        Bounds { low: DVec2::ZERO, high: self.size }.grown(self.ball_radius).contains(position)
+        self.bounds.grown(self.largest_radius()).contains(position)
     }
 }

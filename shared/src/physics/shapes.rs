@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ball::Flight;
-use super::constants::JOINT_GAP;
+use super::constants::{BOUNDS_MARGIN, BOUNDS_ROUNDING, JOINT_GAP};
 use crate::math::tangent;
 
 /// A straight piece of surface without its ends, which are points of their own.
@@ -135,9 +135,13 @@ impl Shape {
         }
     }
 
-    /// Box around the positions at which a ball's centre touches the shape.
+    /// Box around the positions at which a ball's centre touches the shape, and a little more than any rounding.
     pub fn bounds(&self, ball_radius: f64) -> Bounds {
-        let margin = ball_radius * (1.0 + 1e-6);
+        let reach = match self {
+            Self::Segment(segment) => segment.a.abs().max_element() + segment.length,
+            Self::Arc(arc) => arc.center.abs().max_element() + arc.radius,
+        };
+        let margin = ball_radius * (1.0 + BOUNDS_MARGIN) + BOUNDS_ROUNDING * reach;
         match self {
             Self::Segment(segment) => {
                 Bounds { low: segment.a.min(segment.b), high: segment.a.max(segment.b) }.grown(margin)
@@ -160,6 +164,21 @@ impl Bounds {
     /// The box, larger by `margin` on every side.
     pub fn grown(self, margin: f64) -> Self {
         Self { low: self.low - DVec2::splat(margin), high: self.high + DVec2::splat(margin) }
+    }
+
+    /// The box around both.
+    pub fn joined(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    /// Width and height.
+    pub fn size(&self) -> DVec2 {
+        self.high - self.low
+    }
+
+    /// The longer side.
+    pub fn extent(&self) -> f64 {
+        self.size().max_element()
     }
 
     /// Whether two boxes share a point.

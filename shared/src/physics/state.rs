@@ -4,21 +4,22 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ball::{Ball, Instant, Support};
-use super::constants::MOST_HEIGHTS_PER_TICK;
+use super::constants::MOST_HEIGHTS_PER_SECOND;
 use super::flipper::FlipperState;
+use super::needs::Needs;
 use super::plunger::PlungerState;
 use super::scene::{Collider, Presence, Scene};
 use super::shapes::Shape;
-use crate::math::bounded;
 use crate::physics::flipper::FlipperRest;
 
 /// Most balls in play at once.
-pub const MOST_BALLS: usize = 16;
+pub const MOST_BALLS: usize = 1000;
 /// Most flippers, plungers or targets on a table.
 pub const MOST_PARTS: usize = 64;
 
-/// Most ticks of a world: beyond, a tick and its neighbour are the same f64.
-const MOST_TICKS: u64 = 1 << 53;
+/// Most ticks of a world: beyond, the tick after a flight of the longest kind has no number. Moments are told apart by whole
+/// ticks, so that nothing ends at the 2^53 ticks that an f64 can count.
+const MOST_TICKS: u64 = 1 << 62;
 /// Most ticks of one flight: 35 years at 1 kHz, with 13 bits left for a part of a tick.
 const MOST_FLIGHT_TICKS: u64 = 1 << 40;
 
@@ -33,24 +34,22 @@ pub enum TargetState {
     Rising,
 }
 
-/// The state of a world.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+/// The state of a world. Written, it holds what its scene needs and nothing else: see [`super::state_form`].
+#[derive(Debug, Clone, PartialEq)]
 pub struct WorldState {
+    /// What the scene requires, and so what is written.
+    pub needs: Needs,
     /// Ticks since the world began.
     pub tick: u64,
     /// Balls served so far: the next one's id.
     pub served: u32,
     /// Balls in play.
-    #[serde(deserialize_with = "bounded::list::<_, _, MOST_BALLS>")]
     pub balls: Vec<Ball>,
     /// In the scene's order.
-    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
     pub flippers: Vec<FlipperState>,
     /// In the scene's order.
-    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
     pub plungers: Vec<PlungerState>,
     /// In the scene's order.
-    #[serde(deserialize_with = "bounded::list::<_, _, MOST_PARTS>")]
     pub targets: Vec<TargetState>,
 }
 
@@ -66,6 +65,14 @@ pub enum StateError {
         found: usize,
         /// In the table.
         expected: usize,
+    },
+    /// It was written for another scene.
+    #[error("the state holds what another scene needs ({found:012b}), this one needs {expected:012b}")]
+    Needs {
+        /// Of the state, one bit a need.
+        found: u16,
+        /// Of the scene.
+        expected: u16,
     },
     /// NaN, an infinity, or a moment that is not within a tick.
     #[error("{what} {index} has a number that is not finite or out of range")]
@@ -87,9 +94,10 @@ impl WorldState {
     /// The state of a world in which nothing has happened.
     pub fn new(scene: &Scene) -> Self {
         Self {
+            needs: scene.needs,
             tick: 0,
             served: 0,
-            balls: Vec::with_capacity(MOST_BALLS),
+            balls: Vec::with_capacity(if scene.needs.ball_ball { MOST_BALLS } else { 16 }),
             flippers: vec![FlipperState::default(); scene.flippers.len()],
             plungers: vec![PlungerState::default(); scene.plungers.len()],
             targets: vec![TargetState::Up; usize::from(scene.targets)],
@@ -112,6 +120,12 @@ impl WorldState {
     /// # Errors
     /// The first thing found wrong.
     pub fn check(&self, scene: &Scene) -> Result<(), StateError> {
+        if self.needs != scene.needs {
+            return Err(StateError::Needs { found: self.needs.bits(), expected: scene.needs.bits() });
+        }
+        if self.balls.len() > MOST_BALLS {
+            return Err(StateError::Count { what: "balls", found: self.balls.len(), expected: MOST_BALLS });
+        }
         let counts = [
             ("flippers", self.flippers.len(), scene.flippers.len()),
             ("plungers", self.plungers.len(), scene.plungers.len()),
@@ -129,8 +143,8 @@ impl WorldState {
         if self.tick > MOST_TICKS {
             return Err(StateError::Number { what: "tick", index: 0 });
         }
-        let farthest = MOST_HEIGHTS_PER_TICK * scene.size.y;
-        let is_slow = |speed: f64| speed.abs() * scene.tick_seconds <= farthest;
+        let fastest = MOST_HEIGHTS_PER_SECOND * scene.bounds.extent();
+        let is_slow = |speed: f64| speed.abs() <= fastest;
         for (index, (flipper, spec)) in self.flippers.iter().zip(&scene.flippers).enumerate() {
             let in_stroke = (-spec.stroke..=2.0 * spec.stroke).contains(&flipper.swing);
             let coil_is_possible = (0.0..=MOST_TICKS as f64).contains(&flipper.coil_time);
@@ -154,9 +168,12 @@ impl WorldState {
         let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
         let past_is_a_number = ball.past.is_none_or(|(t, _)| !t.is_nan());
         // A ball that crosses the table many times within a tick is no ball: to search its path would take for ever.
-        let (dt, farthest) = (scene.tick_seconds, MOST_HEIGHTS_PER_TICK * scene.size.y);
-        let is_slow = ball.flight.velocity.abs().max_element() * dt <= farthest
-            && ball.flight.acceleration.abs().max_element() * dt * dt <= farthest;
+        let (dt, fastest) = (scene.tick_seconds, MOST_HEIGHTS_PER_SECOND * scene.bounds.extent());
+        let is_slow = ball.flight.velocity.abs().max_element() <= fastest
+            && ball.flight.acceleration.abs().max_element() * dt <= fastest;
+        if usize::from(ball.kind) >= scene.kinds.len() {
+            return Err(number);
+        }
         if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number && is_slow) {
             return Err(number);
         }

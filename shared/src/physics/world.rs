@@ -8,9 +8,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
-use super::constants::CLEAR_OF_TARGET;
+use super::constants::{CLEAR_OF_TARGET, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK};
 use super::flipper::{FlipperMotion, FlipperRest};
-use super::motion::{Next, next_event};
+use super::meetings::Meetings;
+use super::motion::{Motion, Next, Query, Scratch, Span};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
 use super::scene::{Presence, Scene};
@@ -26,6 +27,8 @@ pub struct Event {
     pub ball: u32,
     /// Its centre then, m.
     pub position: DVec2,
+    /// Its velocity just after, m/s.
+    pub velocity: DVec2,
     /// What.
     pub kind: EventKind,
 }
@@ -54,6 +57,13 @@ pub enum EventKind {
         /// Of approach.
         speed: f64,
     },
+    /// It met another ball.
+    Met {
+        /// The other one's id.
+        other: u32,
+        /// Of approach, m/s.
+        speed: f64,
+    },
     /// It passed that sensor.
     Passed {
         /// The table's element.
@@ -79,50 +89,78 @@ pub struct World {
     pub(super) plunger_motions: Vec<Option<PlungerMotion>>,
     /// Impacts of each ball within the current tick.
     pub(super) impacts: Vec<u32>,
+    /// How many of them are worth following.
+    pub(super) most_impacts: u32,
+    /// For each ball, its next meeting with another. Can be recomputed to the same bits.
+    pub(super) meetings: Meetings,
+    scratch: Scratch,
     /// Before this tick nothing happens, unless somebody does something. Can be recomputed.
     quiet_until: u64,
 }
 
 impl World {
-    /// A world without a ball.
+    /// A world with the scene's balls at their start.
     pub fn new(scene: Arc<Scene>) -> Self {
-        let state = WorldState::new(&scene);
-        Self {
+        let per_tick = MOST_IMPACTS_PER_SECOND * scene.tick_seconds;
+        let mut world = Self {
             next: Vec::with_capacity(MOST_BALLS),
-            events: Vec::with_capacity(64),
+            events: Vec::with_capacity(256),
             flipper_motions: vec![None; scene.flippers.len()],
             plunger_motions: vec![None; scene.plungers.len()],
             impacts: Vec::with_capacity(MOST_BALLS),
+            // A cast saturates.
+            most_impacts: (per_tick as u32).max(MOST_IMPACTS_PER_TICK),
+            meetings: Meetings::with_capacity(MOST_BALLS),
+            scratch: Scratch::new(scene.colliders.len()),
             quiet_until: 0,
+            state: WorldState::new(&scene),
             scene,
-            state,
+        };
+        for place in 0..world.scene.start.len() {
+            let ball = world.scene.start[place];
+            world.launch(ball.kind, ball.position, ball.velocity);
         }
+        world
     }
 
     /// Advances the world by one tick and returns what happened in it.
+    #[inline]
     pub fn step(&mut self) -> &[Event] {
         self.events.clear();
-        // 0. Flights were solved when they began: until the next event, time just passes.
+        // Flights were solved when they began: until the next event, time just passes.
         if self.state.tick < self.quiet_until {
             self.state.tick += 1;
-            return &self.events;
+        } else {
+            self.step_busy();
         }
+        &self.events
+    }
+
+    /// A tick in which something may happen.
+    fn step_busy(&mut self) {
+        let needs = self.scene.needs;
         self.impacts.clear();
         self.impacts.resize(self.state.balls.len(), 0);
         // 1. Flippers and plungers: which of them move in this tick, and how they are driven.
-        self.drive_movers();
+        if needs.flippers || needs.plungers {
+            self.drive_movers();
+        }
         // 2. Balls on a curved or moving surface begin a new piece of flight along it.
         self.follow_surfaces();
         // 3. Everything that happens, in order of time.
+        if needs.ball_ball {
+            self.forget_meetings_of_last_tick();
+        }
         self.run_events();
         // 4. Flippers and plungers as they are at the tick's end; targets that waited for a ball to clear;
         //    balls that left the table.
         self.settle_movers();
         self.state.tick += 1;
-        self.raise_targets();
+        if needs.targets {
+            self.raise_targets();
+        }
         self.take_out_escaped();
         self.quiet_until = self.next_busy_tick();
-        &self.events
     }
 
     /// What happened in the last step.
@@ -149,22 +187,33 @@ impl World {
         self.next.clear();
         self.next.resize(state.balls.len(), None);
         self.state = state;
+        self.meetings.forget(self.state.balls.len());
         self.events.clear();
         self.quiet_until = 0;
         Ok(())
     }
 
-    /// Puts a ball into play, at rest; `None` if there are too many already.
+    /// Puts a ball of the first kind into play, at rest; `None` if there are too many already.
     pub fn serve(&mut self, position: DVec2) -> Option<u32> {
-        if self.state.balls.len() >= MOST_BALLS {
+        self.launch(0, position, DVec2::ZERO)
+    }
+
+    /// Puts a ball into play on the playfield: its id; `None` if there are too many already, the scene has no such kind, or a
+    /// number is not finite.
+    ///
+    /// Balls meet each other only in a scene whose needs say so: see [`super::needs::Needs::ball_ball`].
+    pub fn launch(&mut self, kind: u8, position: DVec2, velocity: DVec2) -> Option<u32> {
+        let is_known = usize::from(kind) < self.scene.kinds.len();
+        if self.state.balls.len() >= MOST_BALLS || !is_known || !position.is_finite() || !velocity.is_finite() {
             return None;
         }
         let id = self.state.served;
         self.state.served = id.wrapping_add(1);
         let start = Instant::start_of(self.state.tick);
-        let flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: self.scene.gravity };
-        self.state.balls.push(Ball { id, flight, spin: 0.0, support: Support::None, past: None });
+        let flight = Flight { start, position, velocity, acceleration: self.scene.gravity };
+        self.state.balls.push(Ball { id, kind, floor: 0, flight, spin: 0.0, support: Support::None, past: None });
         self.next.push(None);
+        self.meetings.forget(self.state.balls.len());
         self.quiet_until = 0;
         Some(id)
     }
@@ -173,7 +222,25 @@ impl World {
     pub fn clear_balls(&mut self) {
         self.state.balls.clear();
         self.next.clear();
+        self.meetings.forget(0);
         self.quiet_until = 0;
+    }
+
+    /// Takes one ball out of play.
+    pub(super) fn remove(&mut self, ball: usize) {
+        self.state.balls.remove(ball);
+        self.next.remove(ball);
+        self.meetings.forget(self.state.balls.len());
+    }
+
+    /// Radius of a ball, m.
+    pub(super) fn radius(&self, ball: usize) -> f64 {
+        self.scene.radius(self.state.balls[ball].kind)
+    }
+
+    /// Mass of a ball, kg.
+    pub(super) fn mass(&self, ball: usize) -> f64 {
+        self.scene.mass(self.state.balls[ball].kind)
     }
 
     /// Presses or releases the button of all flippers of one hand.
@@ -206,7 +273,10 @@ impl World {
 
     /// The first tick in which something may happen: a coil, a plunger or a target at work, a ball that follows a
     /// surface tick by tick, or a flight's next event.
-    fn next_busy_tick(&self) -> u64 {
+    fn next_busy_tick(&mut self) -> u64 {
+        if self.scene.motion != Motion::Exact {
+            return 0;
+        }
         let (state, dt) = (&self.state, self.scene.tick_seconds);
         let at_work = state.flippers.iter().any(|f| f.pressed || f.rest != FlipperRest::AtRest)
             || state.plungers.iter().any(|p| !p.home || !p.stays_home())
@@ -226,9 +296,16 @@ impl World {
             if !(self.scene.is_inside(path.low) && self.scene.is_inside(path.high)) {
                 return 0;
             }
+            // The division may be off by a rounding, but the end of a tick is what decides. A cast saturates.
+            let mut tick = state.tick.saturating_add((((to - from) / dt) as u64).saturating_sub(1));
+            while tick < busy && Instant::start_of(tick + 1).since(ball.flight.start, dt) <= to {
+                tick += 1;
+            }
+            busy = busy.min(tick);
+        }
+        if self.scene.needs.ball_ball {
             // A tick less, for the rounding of the division.
-            let ticks = ((to - from) / dt) as u64;
-            busy = busy.min(state.tick.saturating_add(ticks.saturating_sub(1)));
+            busy = busy.min(self.next_meeting_tick().saturating_sub(1));
         }
         busy
     }
@@ -250,7 +327,7 @@ impl World {
                 let place = scene.colliders.iter().filter(|collider| collider.presence == presence);
                 place
                     .into_iter()
-                    .any(|collider| collider.shape.distance(position) <= scene.ball_radius * CLEAR_OF_TARGET)
+                    .any(|collider| collider.shape.distance(position) <= scene.radius(ball.kind) * CLEAR_OF_TARGET)
             });
             if !blocked {
                 self.state.targets[index] = TargetState::Up;
@@ -264,11 +341,10 @@ impl World {
         let now = Instant::start_of(self.state.tick);
         for index in (0..self.state.balls.len()).rev() {
             let ball = self.state.balls[index];
-            let (position, _) = ball.at(now, self.scene.tick_seconds);
+            let (position, velocity) = ball.at(now, self.scene.tick_seconds);
             if !self.scene.is_inside(position) {
-                self.events.push(Event { at: now, ball: ball.id, position, kind: EventKind::Escaped });
-                self.state.balls.remove(index);
-                self.next.remove(index);
+                self.events.push(Event { at: now, ball: ball.id, position, velocity, kind: EventKind::Escaped });
+                self.remove(index);
             }
         }
     }
@@ -297,10 +373,9 @@ impl World {
             known => known,
         };
         let next = known.unwrap_or_else(|| {
-            let state = &self.state;
-            let now = ball.past.map_or(0.0, |(t, _)| t);
-            let now = if elapsed > now { elapsed } else { now };
-            next_event(&self.scene, ball, |collider| state.has(collider), now, end)
+            let tick = Span { from: if elapsed > 0.0 { elapsed } else { 0.0 }, to: end };
+            let (scene, state) = (&*self.scene, &self.state);
+            scene.motion.model().next_event(&mut Query { scene, state, ball, tick, scratch: &mut self.scratch })
         });
         self.next[index] = Some(next);
         if matches!(next, Next::ClearUntil(_)) || next.time() >= end {

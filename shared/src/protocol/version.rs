@@ -10,6 +10,7 @@ use crate::game::{Action, GameEvent, GameEventKind, GameState, Phase};
 use crate::math::Digest;
 use crate::physics::ball::{Ball, Flight, Instant, Support};
 use crate::physics::flipper::{FlipperRest, FlipperState};
+use crate::physics::needs::Needs;
 use crate::physics::plunger::PlungerState;
 use crate::physics::{TargetState, WorldState};
 
@@ -143,7 +144,10 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
     frames.push(encode(&GameEventKind::Points { seat: 0, points: 1, place: None }));
     frames.push(encode(&ServerMessage::You { seat: None, line: None }));
     frames.push(encode(&PlungerState::default()));
-    frames.push(encode(&Ball { past: None, ..sample_snapshot().state.world.balls[0] }));
+    // And a world that needs nothing of it all.
+    let ball = Ball { past: None, ..sample_snapshot().state.world.balls[0] };
+    let bare = WorldState { needs: Needs::default(), balls: vec![ball], ..sample_snapshot().state.world };
+    frames.push(encode(&bare));
     frames
 }
 
@@ -163,9 +167,11 @@ pub(super) fn sample_snapshot() -> Snapshot {
         Support::Flipper(0),
         Support::Plunger(0),
     ];
-    let balls = supports.map(|support| Ball { id: 7, flight, spin: 1.5, support, past: Some((0.5, 3)) });
+    let balls =
+        supports.map(|support| Ball { id: 7, kind: 1, floor: 1, flight, spin: 1.5, support, past: Some((0.5, 3)) });
     let rests = [FlipperRest::AtRest, FlipperRest::Raised, FlipperRest::Moving];
     let world = WorldState {
+        needs: Needs::ALL,
         tick: 10,
         served: 8,
         balls: balls.to_vec(),

@@ -6,18 +6,25 @@ use std::sync::Arc;
 use glam::DVec2;
 use ron::Options;
 use ron::extensions::Extensions;
+use serde::de::DeserializeOwned;
 
 use super::error::TableError;
 use super::format::{ElementFile, Point, TableFile};
 use super::locate::{Step, element_at, line_of};
-use super::{FORMAT_VERSION, MOST_TEXT, Table, rulebook, shapes};
+use super::shapes::Bare;
+use super::{FORMAT_VERSION, MOST_TEXT, Table, rulebook, scene_form, shapes};
 use crate::math::Digest;
-use crate::physics::scene::{Collider, Role, Scene};
+use crate::physics::scene::{Collider, Scene};
 use crate::physics::shapes::{Shape, Side};
 use crate::physics::{MOST_PARTS, PHYSICS_VERSION};
 
-/// Most elements of a table.
-const MOST_ELEMENTS: usize = 2000;
+/// Most elements of a table, and of a scene.
+const MOST_ELEMENTS: (usize, usize) = (2000, 20_000);
+
+/// Largest coordinate of a scene, m.
+pub(super) const MOST_COORDINATE: f64 = 1e12;
+/// Share of a ball's radius by which it may overlap something at its start: what decimals leave.
+const TOUCHING: f64 = 1e-6;
 
 /// Longest name or message, characters.
 const MOST_CHARACTERS: usize = 40;
@@ -34,6 +41,8 @@ pub(super) enum Spot<'a> {
     Group(&'a str),
     /// By its place among the elements.
     Element(u16),
+    /// By its place among a scene's balls.
+    StartBall(usize),
 }
 
 /// A table on its way through the checks.
@@ -41,34 +50,31 @@ pub(super) struct Context<'a> {
     name: &'a str,
     source: &'a str,
     pub(super) file: &'a TableFile,
+    /// It is a bare scene, whose numbers have wider ranges.
+    pub(super) is_scene: bool,
     indices: BTreeMap<&'a str, u16>,
 }
 
 pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
-    let whole = |line, problem| TableError { file: name.to_owned(), line, element: None, field: None, problem };
-    if source.len() > MOST_TEXT {
-        return Err(whole(0, format!("{} bytes are more than the {MOST_TEXT} that a table may have", source.len())));
+    if scene_form::is_scene(source) {
+        return scene_form::parse(name, source);
     }
-    let extensions = Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::IMPLICIT_SOME;
-    let file: TableFile = Options::default()
-        .with_default_extension(extensions)
-        .from_str(source)
-        .map_err(|error| unreadable(name, source, &error))?;
-    let context = Context { name, source, file: &file, indices: BTreeMap::new() };
+    let file: TableFile = read(name, source, MOST_TEXT)?;
+    let context = Context { name, source, file: &file, is_scene: false, indices: BTreeMap::new() };
     context.versions()?;
     context.table_numbers()?;
     context.materials()?;
     let context = context.with_names()?;
+    context.has_a_drain()?;
     context.groups()?;
-    let scene = shapes::build(&context)?;
-    context.start_is_clear(&scene)?;
+    let scene = shapes::build(&context, &Bare::of_table(&file))?;
+    context.start_is_clear(Spot::Ball, "start", file.ball.start, file.ball.radius, &scene)?;
     let rules = rulebook::resolve(&context, &file.rules)?;
-    let mut digest = Digest::default();
-    digest.update(source.as_bytes());
     Ok(Table {
         name: file.name.clone(),
         source: source.to_owned(),
-        digest: digest.finish(),
+        digest: digest(source),
+        has_rules: true,
         scene: Arc::new(scene),
         ball_start: vector(file.ball.start),
         rules,
@@ -77,6 +83,23 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
         lights: context.all(|element| matches!(element, ElementFile::Light(_))),
         file,
     })
+}
+
+pub(super) fn digest(source: &str) -> u64 {
+    let mut digest = Digest::default();
+    digest.update(source.as_bytes());
+    digest.finish()
+}
+
+/// The written form in a text of at most `most` bytes.
+pub(super) fn read<T: DeserializeOwned>(name: &str, source: &str, most: usize) -> Result<T, TableError> {
+    if source.len() > most {
+        let problem = format!("{} bytes are more than the {most} that it may have", source.len());
+        return Err(TableError { file: name.to_owned(), line: 0, element: None, field: None, problem });
+    }
+    let extensions = Extensions::UNWRAP_VARIANT_NEWTYPES | Extensions::IMPLICIT_SOME;
+    let options = Options::default().with_default_extension(extensions);
+    options.from_str(source).map_err(|error| unreadable(name, source, &error))
 }
 
 /// What the parser complains of, with the element and the field that it is about.
@@ -97,7 +120,7 @@ fn unreadable(file: &str, source: &str, error: &ron::error::SpannedError) -> Tab
     }
 }
 
-fn acts(element: &ElementFile) -> bool {
+pub(super) fn acts(element: &ElementFile) -> bool {
     matches!(element, ElementFile::Bumper(_) | ElementFile::Slingshot(_) | ElementFile::DropTarget(_))
 }
 
@@ -127,6 +150,7 @@ impl<'a> Context<'a> {
             Spot::Material(name) => &[Step::Field("materials"), Step::Key(name)],
             Spot::Group(name) => &[Step::Field("groups"), Step::Key(name)],
             Spot::Element(place) => &[Step::Field("elements"), Step::Item(usize::from(place))],
+            Spot::StartBall(place) => &[Step::Field("balls"), Step::Item(place)],
         };
         let way: Vec<_> = spot_way.iter().copied().chain(field.map(Step::Field)).chain(item.map(Step::Item)).collect();
         let element = match spot {
@@ -134,6 +158,7 @@ impl<'a> Context<'a> {
             Spot::Ball => Some("ball".to_owned()),
             Spot::Rules => Some("rules".to_owned()),
             Spot::Rule(place) => Some(format!("rule {}", place + 1)),
+            Spot::StartBall(place) => Some(format!("ball {}", place + 1)),
             Spot::Material(name) | Spot::Group(name) => Some(name.to_owned()),
             Spot::Element(place) => Some(self.file.elements[usize::from(place)].name().to_owned()),
         };
@@ -171,6 +196,16 @@ impl<'a> Context<'a> {
         item: Option<usize>,
         point: Point,
     ) -> Result<DVec2, TableError> {
+        if self.is_scene {
+            return if DVec2::new(point.0, point.1).abs().max_element() <= MOST_COORDINATE {
+                Ok(vector(point))
+            } else {
+                let problem = format!(
+                    "{point:?} is no place; coordinates in metres of at most {MOST_COORDINATE:e} would be right"
+                );
+                Err(self.error_at(spot, Some(field), item, problem))
+            };
+        }
         let size = vector(self.file.size);
         let margin = 0.1 * if size.x > size.y { size.x } else { size.y };
         let fits = |value: f64, size: f64| value >= -margin && value <= size + margin;
@@ -193,6 +228,10 @@ impl<'a> Context<'a> {
         (0..).zip(&self.file.elements).filter(|(_, element)| is_wanted(element)).map(|(index, _)| index).collect()
     }
 
+    pub(super) fn new(name: &'a str, source: &'a str, file: &'a TableFile) -> Self {
+        Self { name, source, file, is_scene: true, indices: BTreeMap::new() }
+    }
+
     fn versions(&self) -> Result<(), TableError> {
         let versions = [("format", self.file.format, FORMAT_VERSION), ("physics", self.file.physics, PHYSICS_VERSION)];
         for (field, found, known) in versions {
@@ -210,7 +249,8 @@ impl<'a> Context<'a> {
         for length in [file.size.0, file.size.1] {
             self.in_range(Spot::Table, "size", length, 1e-3, 1e3, "(0.514, 1.067) metres")?;
         }
-        self.in_range(Spot::Table, "tick_hz", f64::from(file.tick_hz), 50.0, 100_000.0, "1000")?;
+        self.in_range(Spot::Table, "tick_hz", f64::from(file.tick_hz), 1.0, 1e6, "1000")?;
+        self.in_range(Spot::Table, "pixel", file.pixel, 1e-6, 1.0, "0.001 m")?;
         for pull in [file.gravity.0, file.gravity.1] {
             self.in_range(Spot::Table, "gravity", pull, -1e4, 1e4, "(0.0, -0.793) m/s^2")?;
         }
@@ -233,14 +273,16 @@ impl<'a> Context<'a> {
             self.in_range(spot, "restitution", material.restitution, 0.0, 1.0, "0.8")?;
             self.in_range(spot, "falloff", material.falloff, 0.0, 1e3, "0.3 s/m")?;
             self.in_range(spot, "friction", material.friction, 0.0, 10.0, "0.6")?;
+            self.in_range(spot, "tangential", material.tangential, 0.0, 1.0, "1 or, of the manual's own lines, 0.9")?;
         }
         Ok(())
     }
 
-    fn with_names(mut self) -> Result<Self, TableError> {
+    pub(super) fn with_names(mut self) -> Result<Self, TableError> {
         let elements = &self.file.elements;
-        if elements.len() > MOST_ELEMENTS {
-            let problem = format!("{} elements are more than {MOST_ELEMENTS}", elements.len());
+        let most = if self.is_scene { MOST_ELEMENTS.1 } else { MOST_ELEMENTS.0 };
+        if elements.len() > most {
+            let problem = format!("{} elements are more than {most}", elements.len());
             return Err(self.error(Spot::Table, Some("elements"), problem));
         }
         for (index, element) in (0..).zip(elements) {
@@ -264,33 +306,47 @@ impl<'a> Context<'a> {
                 return Err(self.error(Spot::Table, Some("elements"), problem));
             }
         }
-        if count(|element| matches!(element, ElementFile::Drain(_))) == 0 {
-            let problem = "there is no Drain, so that no ball would ever end".to_owned();
-            return Err(self.error(Spot::Table, Some("elements"), problem));
-        }
         Ok(self)
     }
 
-    /// A ball is served beside things, not in them.
-    fn start_is_clear(&self, scene: &Scene) -> Result<(), TableError> {
-        let start = vector(self.file.ball.start);
+    fn has_a_drain(&self) -> Result<(), TableError> {
+        if self.file.elements.iter().any(|element| matches!(element, ElementFile::Drain(_))) {
+            return Ok(());
+        }
+        let problem = "there is no Drain, so that no ball would ever end".to_owned();
+        Err(self.error(Spot::Table, Some("elements"), problem))
+    }
+
+    /// A ball begins beside things, not in them.
+    pub(super) fn start_is_clear(
+        &self,
+        spot: Spot<'_>,
+        field: &str,
+        start: Point,
+        radius: f64,
+        scene: &Scene,
+    ) -> Result<(), TableError> {
+        let place = vector(start);
+        // What touches by the decimals of the file does not overlap.
+        let reach = radius * (1.0 - TOUCHING);
         let is_in = |collider: &Collider| match &collider.shape {
             // The whole disc of a post is in the way, not its rim alone.
             Shape::Arc(arc) if arc.span.is_none() && arc.side == Side::Outside => {
-                (start - arc.center).length() < arc.reach(scene.ball_radius)
+                (place - arc.center).length() < arc.radius + reach
             }
-            shape => shape.distance(start) < scene.ball_radius,
+            shape => shape.distance(place) < reach,
         };
-        let solid = |collider: &&Collider| !matches!(collider.role, Role::Sensor | Role::Drain);
-        match scene.colliders.iter().filter(solid).find(|collider| is_in(collider)) {
+        let in_the_way = |collider: &&Collider| !collider.role.is_passed() && collider.floor == 0;
+        match scene.colliders.iter().filter(in_the_way).find(|collider| is_in(collider)) {
             None => Ok(()),
             Some(collider) => {
                 let name = self.file.elements[usize::from(collider.element)].name();
+                let place = place + scene.origin;
                 let problem = format!(
-                    "a ball served at {:?} would overlap {name:?}; a place that is a ball's radius from everything would be right",
-                    self.file.ball.start
+                    "a ball at ({}, {}) would overlap {name:?}; a place that is a ball's radius from everything would be right",
+                    place.x, place.y
                 );
-                Err(self.error(Spot::Ball, Some("start"), problem))
+                Err(self.error(spot, Some(field), problem))
             }
         }
     }
@@ -319,7 +375,7 @@ impl<'a> Context<'a> {
     }
 
     /// Refuses text that does not fit a display, or would break a line of a log.
-    fn printable(&self, spot: Spot<'_>, field: Option<&str>, text: &str) -> Result<(), TableError> {
+    pub(super) fn printable(&self, spot: Spot<'_>, field: Option<&str>, text: &str) -> Result<(), TableError> {
         if is_printable(text) { Ok(()) } else { Err(self.error(spot, field, unprintable(text))) }
     }
 }

@@ -10,13 +10,14 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::unique;
+use crate::physics::motion::Motion;
 
 /// A point or vector as written: `(x, y)` in metres, x right and y up the table.
 pub type Point = (f64, f64);
 
 /// A whole table file.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename = "Table")]
 pub struct TableFile {
     /// Version of this format; see [`super::FORMAT_VERSION`].
     pub format: u32,
@@ -29,6 +30,12 @@ pub struct TableFile {
     /// World ticks a second.
     #[serde(default = "default_tick_hz")]
     pub tick_hz: u32,
+    /// How the next impact of a ball is found.
+    #[serde(default)]
+    pub motion: Motion,
+    /// The pixel model's step, m.
+    #[serde(default = "default_pixel")]
+    pub pixel: f64,
     /// Acceleration of a ball that rolls on the playfield, m/s^2.
     pub gravity: Point,
     /// Normal speed after an impact below which the ball stays in contact, m/s.
@@ -47,8 +54,16 @@ pub struct TableFile {
     pub rules: RulesFile,
 }
 
-fn default_tick_hz() -> u32 {
+pub(super) fn default_tick_hz() -> u32 {
     1000
+}
+
+pub(super) fn default_pixel() -> f64 {
+    0.001
+}
+
+fn whole() -> f64 {
+    1.0
 }
 
 /// The ball.
@@ -75,6 +90,9 @@ pub struct MaterialFile {
     /// Coulomb coefficient.
     #[serde(default)]
     pub friction: f64,
+    /// Share of the tangential speed that an impact leaves, apart from friction.
+    #[serde(default = "whole")]
+    pub tangential: f64,
 }
 
 /// Which side of the table a flipper belongs to.
@@ -110,6 +128,10 @@ pub enum ElementFile {
     Arc(ArcFile),
     /// A round post.
     Post(PostFile),
+    /// A round wall around a ball that is inside.
+    Ring(PostFile),
+    /// A line at which a ball drops, or climbs, to another floor.
+    Hole(HoleFile),
     /// A wall that a ball passes from one side only.
     Gate(GateFile),
     /// A round kicker.
@@ -140,6 +162,26 @@ pub struct WallFile {
     pub material: String,
     /// Two or more.
     pub points: Vec<Point>,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
+}
+
+/// See [`ElementFile::Hole`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HoleFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// The floor that it is on.
+    #[serde(default)]
+    pub floor: u8,
+    /// The floor that it leads to.
+    pub leads_to: u8,
 }
 
 /// See [`ElementFile::Arc`].
@@ -160,7 +202,7 @@ pub struct ArcFile {
     pub to: f64,
 }
 
-/// See [`ElementFile::Post`].
+/// See [`ElementFile::Post`] and [`ElementFile::Ring`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PostFile {
@@ -172,6 +214,9 @@ pub struct PostFile {
     pub center: Point,
     /// Metres.
     pub radius: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Gate`].
@@ -392,7 +437,8 @@ impl ElementFile {
         match self {
             Self::Wall(e) => &e.name,
             Self::Arc(e) => &e.name,
-            Self::Post(e) => &e.name,
+            Self::Post(e) | Self::Ring(e) => &e.name,
+            Self::Hole(e) => &e.name,
             Self::Gate(e) => &e.name,
             Self::Bumper(e) => &e.name,
             Self::Slingshot(e) => &e.name,

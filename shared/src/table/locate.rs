@@ -47,6 +47,16 @@ pub(super) fn element_at(source: &str, line: usize, column: usize) -> Option<Str
     None
 }
 
+/// The word before the table's first bracket, such as `Scene` in `Scene(...)`; `None` if there is none.
+pub(super) fn first_word(source: &str) -> Option<&str> {
+    let masked = mask(source);
+    let from = table(&masked);
+    let open = masked[from..].iter().position(|&byte| byte == b'(')?;
+    let word = masked[from..from + open].trim_ascii();
+    let end = from + open - (masked[from..from + open].len() - masked[from..from + open].trim_ascii_end().len());
+    source.get(end - word.len()..end).filter(|word| !word.is_empty())
+}
+
 fn line_at(masked: &[u8], at: usize) -> usize {
     1 + masked[..at].iter().filter(|&&byte| byte == b'\n').count()
 }

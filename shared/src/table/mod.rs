@@ -6,6 +6,7 @@ mod error;
 pub mod format;
 pub(crate) mod locate;
 mod rulebook;
+mod scene_form;
 mod shapes;
 #[cfg(test)]
 mod tests;
@@ -19,7 +20,10 @@ pub(crate) use check::{is_printable, unprintable};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};
+pub use scene_form::{SceneBall, SceneElement, SceneFile};
 
+use crate::math::digest_of;
+use crate::physics::motion::Motion;
 use crate::physics::scene::Scene;
 
 /// Version of the written form.
@@ -27,6 +31,9 @@ pub const FORMAT_VERSION: u32 = 1;
 
 /// The largest table text that is read, bytes. A table from the network is held to it as well.
 pub const MOST_TEXT: usize = 256 * 1024;
+
+/// The largest scene text that is read, bytes. Scenes are not sent.
+pub const MOST_SCENE_TEXT: usize = 16 * 1024 * 1024;
 
 /// The tables that come with the game: name and text.
 pub const SHIPPED: &[(&str, &str)] = &[("classic", include_str!("../../tables/classic.ron"))];
@@ -40,6 +47,8 @@ pub struct Table {
     pub source: String,
     /// Digest of that text.
     pub digest: u64,
+    /// Whether it is played by rules; a bare scene has none.
+    pub has_rules: bool,
     /// The written form, for drawing.
     pub file: TableFile,
     /// What the physics plays in.
@@ -63,6 +72,28 @@ impl Table {
     /// The first thing that is wrong with it: where, and what would be right.
     pub fn parse(file: &str, source: &str) -> Result<Self, TableError> {
         check::parse(file, source)
+    }
+
+    /// The same table run by another motion model or at another rate. Its digest then says so: it is another world.
+    ///
+    /// # Errors
+    /// If the rate is not 1 to 1,000,000 ticks a second.
+    pub fn run_with(&self, motion: Option<Motion>, tick_hz: Option<u32>) -> Result<Self, String> {
+        let mut table = self.clone();
+        let scene = Arc::make_mut(&mut table.scene);
+        if let Some(motion) = motion {
+            scene.motion = motion;
+        }
+        if let Some(tick_hz) = tick_hz {
+            if !(1..=1_000_000).contains(&tick_hz) {
+                return Err(format!("{tick_hz} ticks a second are not within 1 to 1000000; 1000 would be right"));
+            }
+            scene.tick_seconds = 1.0 / f64::from(tick_hz);
+        }
+        if *scene != *self.scene {
+            table.digest = digest_of(&(self.digest, scene.motion, scene.tick_seconds));
+        }
+        Ok(table)
     }
 
     /// A table that comes with the game; `None` if there is none of that name.

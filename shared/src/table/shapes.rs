@@ -4,44 +4,79 @@ use glam::DVec2;
 
 use super::check::{Context, Spot, vector};
 use super::error::TableError;
-use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point};
+use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point, TableFile};
 use crate::math::{direction, radians, tangent};
 use crate::physics::flipper::FlipperSpec;
+use crate::physics::needs::Needs;
 use crate::physics::plunger::PlungerSpec;
-use crate::physics::scene::{Collider, Material, Presence, Role, Scene};
-use crate::physics::shapes::{Arc, Segment, Shape, Side};
+use crate::physics::scene::{BallKind, Collider, Material, Presence, Role, Scene, StartBall};
+use crate::physics::shapes::{Arc, Bounds, Segment, Shape, Side};
 
 /// Most colliders of a table; a place among them fits 16 bits.
-const MOST_COLLIDERS: usize = 8000;
+const MOST_COLLIDERS: usize = 60_000;
 
-pub(super) fn build(context: &Context<'_>) -> Result<Scene, TableError> {
+pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableError> {
     let file = context.file;
     let scene = Scene {
+        motion: file.motion,
         tick_seconds: 1.0 / f64::from(file.tick_hz),
+        pixel: file.pixel,
         gravity: vector(file.gravity),
         rest_speed: file.rest_speed,
-        ball_radius: file.ball.radius,
-        ball_mass: file.ball.mass,
-        size: vector(file.size),
+        kinds: bare.kinds.clone(),
+        ball_material: bare.ball_material,
+        start: bare.start.clone(),
+        origin: bare.origin,
+        bounds: bare.bounds,
         colliders: Vec::new(),
         flippers: Vec::new(),
         plungers: Vec::new(),
         targets: 0,
+        needs: Needs::default(),
+        grid: None,
     };
-    let mut builder = Builder { context, scene };
+    let mut builder = Builder { context, scene, floor: 0 };
     for (index, element) in (0..).zip(&file.elements) {
+        builder.floor = 0;
         builder.add(index, element)?;
         if builder.scene.colliders.len() > MOST_COLLIDERS {
             let problem = format!("the elements up to this one have more than {MOST_COLLIDERS} sides and corners");
             return Err(context.error(Spot::Element(index), None, problem));
         }
     }
-    Ok(builder.scene)
+    Ok(builder.scene.built())
 }
+
+/// What a scene says of balls and space that a table says otherwise.
+pub(super) struct Bare {
+    pub(super) kinds: Vec<BallKind>,
+    pub(super) ball_material: Material,
+    pub(super) start: Vec<StartBall>,
+    pub(super) origin: DVec2,
+    pub(super) bounds: Bounds,
+}
+
+impl Bare {
+    /// Of a table: one kind of ball, served by the rules.
+    pub(super) fn of_table(file: &TableFile) -> Self {
+        Self {
+            kinds: vec![BallKind { radius: file.ball.radius, mass: file.ball.mass }],
+            ball_material: Material::bouncing(BALL_RESTITUTION),
+            start: Vec::new(),
+            origin: DVec2::ZERO,
+            bounds: Bounds { low: DVec2::ZERO, high: vector(file.size) },
+        }
+    }
+}
+
+/// Of steel on steel.
+const BALL_RESTITUTION: f64 = 0.9;
 
 struct Builder<'a> {
     context: &'a Context<'a>,
     scene: Scene,
+    /// Of the element that is being added.
+    floor: u8,
 }
 
 impl Builder<'_> {
@@ -50,12 +85,28 @@ impl Builder<'_> {
         match element {
             ElementFile::Wall(wall) => {
                 let material = self.material(spot, &wall.material)?;
+                self.floor = wall.floor;
                 self.polyline(index, &wall.points, material)
             }
             ElementFile::Arc(arc) => self.arc(index, arc),
             ElementFile::Post(post) => {
                 let material = self.material(spot, &post.material)?;
-                self.disc(index, post.center, post.radius, material, Role::Solid)
+                self.floor = post.floor;
+                self.disc(index, post.center, post.radius, Side::Outside, material, Role::Solid)
+            }
+            ElementFile::Ring(ring) => {
+                let material = self.material(spot, &ring.material)?;
+                self.floor = ring.floor;
+                self.disc(index, ring.center, ring.radius, Side::Inside, material, Role::Solid)
+            }
+            ElementFile::Hole(hole) => {
+                self.floor = hole.floor;
+                if hole.leads_to == hole.floor {
+                    let problem = format!("it is on floor {} already; another floor would be right", hole.floor);
+                    return Err(self.context.error(spot, Some("leads_to"), problem));
+                }
+                let line = LineFile { name: hole.name.clone(), from: hole.from, to: hole.to };
+                self.sensor(index, &line, Role::Hole { to: hole.leads_to })
             }
             ElementFile::Gate(gate) => {
                 let material = self.material(spot, &gate.material)?;
@@ -67,7 +118,7 @@ impl Builder<'_> {
             ElementFile::Bumper(bumper) => {
                 let material = self.material(spot, &bumper.material)?;
                 let role = self.kicker(spot, bumper.kick, bumper.threshold)?;
-                self.disc(index, bumper.center, bumper.radius, material, role)
+                self.disc(index, bumper.center, bumper.radius, Side::Outside, material, role)
             }
             ElementFile::Slingshot(sling) => {
                 let material = self.material(spot, &sling.material)?;
@@ -102,8 +153,8 @@ impl Builder<'_> {
     }
 
     fn push(&mut self, element: u16, shape: Shape, material: Material, role: Role, presence: Presence) {
-        let bounds = shape.bounds(self.scene.ball_radius);
-        self.scene.colliders.push(Collider { shape, bounds, material, element, role, presence });
+        let bounds = shape.bounds(self.scene.largest_radius());
+        self.scene.colliders.push(Collider { shape, bounds, material, element, role, presence, floor: self.floor });
     }
 
     fn material(&self, spot: Spot<'_>, name: &str) -> Result<Material, TableError> {
@@ -113,11 +164,17 @@ impl Builder<'_> {
             let problem = format!("there is no material {name:?}; there are: {}", known.join(", "));
             return Err(self.context.error(spot, Some("material"), problem));
         };
-        Ok(Material { restitution: found.restitution, falloff: found.falloff, friction: found.friction })
+        Ok(Material {
+            restitution: found.restitution,
+            falloff: found.falloff,
+            friction: found.friction,
+            tangential: found.tangential,
+        })
     }
 
     fn length(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
-        self.context.in_range(spot, field, value, 1e-5, 1e3, "a length in metres such as 0.02")
+        let (least, most) = if self.context.is_scene { (1e-15, 1e12) } else { (1e-5, 1e3) };
+        self.context.in_range(spot, field, value, least, most, "a length in metres such as 0.02")
     }
 
     fn speed(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
@@ -144,7 +201,7 @@ impl Builder<'_> {
         b: DVec2,
     ) -> Result<Segment, TableError> {
         // Shorter than this a direction has no digits left.
-        if (b - a).length() < 1e-9 {
+        if (b - a).length() < if self.context.is_scene { 1e-150 } else { 1e-9 } {
             let problem = format!("two ends at ({}, {}) make no line; they must differ", b.x, b.y);
             return Err(self.context.error_at(spot, Some(field), item, problem));
         }
@@ -162,11 +219,15 @@ impl Builder<'_> {
             places.push(self.context.point(spot, "points", Some(item), point)?);
         }
         for (item, pair) in places.windows(2).enumerate() {
+            // In a scene a wall of no length is a point.
+            if self.context.is_scene && pair[0] == pair[1] {
+                continue;
+            }
             let segment = self.between(spot, "points", Some(item + 1), pair[0], pair[1])?;
             self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
         }
         // A closed line has its first corner only once.
-        let closed = places.first() == places.last();
+        let closed = places.len() > 2 && places.first() == places.last();
         for &place in &places[usize::from(closed)..] {
             self.push(index, point(place), material, Role::Solid, Presence::Always);
         }
@@ -178,13 +239,14 @@ impl Builder<'_> {
         index: u16,
         center: Point,
         radius: f64,
+        side: Side,
         material: Material,
         role: Role,
     ) -> Result<(), TableError> {
         let spot = Spot::Element(index);
         let center = self.context.point(spot, "center", None, center)?;
         self.length(spot, "radius", radius)?;
-        let shape = Shape::Arc(Arc { center, radius, side: Side::Outside, span: None });
+        let shape = Shape::Arc(Arc { center, radius, side, span: None });
         self.push(index, shape, material, role, Presence::Always);
         Ok(())
     }
@@ -203,7 +265,7 @@ impl Builder<'_> {
         let face = |side| Shape::Arc(Arc { center, radius: arc.radius, side, span });
         self.push(index, face(Side::Outside), material, Role::Solid, Presence::Always);
         // A ball that is larger than the circle cannot be inside.
-        if arc.radius > self.scene.ball_radius {
+        if arc.radius > self.scene.largest_radius() {
             self.push(index, face(Side::Inside), material, Role::Solid, Presence::Always);
         }
         if span.is_some() {
@@ -217,7 +279,7 @@ impl Builder<'_> {
 
     fn sensor(&mut self, index: u16, line: &LineFile, role: Role) -> Result<(), TableError> {
         let segment = self.segment(Spot::Element(index), line.from, line.to)?;
-        let none = Material { restitution: 0.0, falloff: 0.0, friction: 0.0 };
+        let none = Material::bouncing(0.0);
         self.push(index, Shape::Segment(segment), none, role, Presence::Always);
         Ok(())
     }

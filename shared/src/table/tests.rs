@@ -7,7 +7,7 @@ use crate::physics::MOST_PARTS;
 /// A good table with one of everything.
 const GOOD: &str = r#"(
     format: 1,
-    physics: 1,
+    physics: 2,
     name: "Good",
     size: (0.5, 1.0),
     gravity: (0.0, -0.8),
@@ -118,13 +118,13 @@ const CASES: &[Case] = &[
     case("\"wood\": (", "\"rubber\": (", "\"rubber\"", ("", ""), "\"rubber\" is there twice; names must differ"),
     // Versions.
     case("format: 1", "format: 2", "format", ("", "format"), "this program knows version 1"),
-    case("physics: 1", "physics: 7", "physics", ("", "physics"), "this program knows version 1"),
+    case("physics: 2", "physics: 7", "physics", ("", "physics"), "this program knows version 2"),
     // The table's own numbers. The ball comes after elements that have a radius, too.
     case("name: \"Good\"", "name: \"\"", "name", ("", "name"), "1 to 40 printable characters"),
     case("size: (0.5, 1.0)", "size: (0.5, 0.0)", "size", ("", "size"), "(0.514, 1.067) metres would be right"),
     case("rest_speed: 0.02", "rest_speed: 0.0", "rest_speed", ("", "rest_speed"), "0.02 m/s would be right"),
     case("gravity: (0.0, -0.8)", "gravity: (NaN, -0.8)", "gravity", ("", "gravity"), "m/s^2 would be right"),
-    case("rest_speed: 0.02", "tick_hz: 1, rest_speed: 0.02", "tick_hz", ("", "tick_hz"), "1000 would be right"),
+    case("rest_speed: 0.02", "tick_hz: 0, rest_speed: 0.02", "tick_hz", ("", "tick_hz"), "1000 would be right"),
     case("radius: 0.0135", "radius: -0.0135", "radius", ("ball", "radius"), "0.0135 m would be right"),
     case("mass: 0.08", "mass: 0.0", "mass", ("ball", "mass"), "0.08 kg would be right"),
     case("start: (0.47, 0.12)", "start: (0.47, NaN)", "start", ("ball", "start"), "not on the table"),
@@ -314,7 +314,7 @@ fn too_many_lights_targets_elements_points_or_bytes_are_refused() {
 
     let error = error_of(&(GOOD.to_owned() + &" ".repeat(MOST_TEXT)));
     assert_eq!(error.line, 0);
-    assert!(error.problem.contains("more than the 262144 that a table may have"), "{error}");
+    assert!(error.problem.contains("more than the 262144 that it may have"), "{error}");
 }
 
 #[test]

@@ -1,46 +1,169 @@
 //! Ball against round surface (outside, inside, or a point): the squared distance from the centre is quartic in time.
+//!
+//! Where the ball is near the circle its squared distance is nearly always convex in time, and then Newton's method from
+//! the proper end runs monotonically into the root. Elsewhere the roots are isolated by those of the derivatives.
 
 use glam::DVec2;
 
-use super::{Search, TimeOfImpact, touch_gap, without_rounding};
-use crate::math::roots::{quadratic, sign_changes};
+use super::near::near_circle;
+use super::{Search, TimeOfImpact, without_rounding};
+use crate::math::roots::{Roots, quadratic, sign_changes};
 use crate::physics::ball::Flight;
-use crate::physics::constants::{DEEPEST_OVERLAP, POLISH_STEP};
+use crate::physics::constants::{DEEPEST_OVERLAP, MOST_NEWTON_STEPS, POLISH_STEP};
 use crate::physics::shapes::Arc;
 
-pub(super) fn first_impact(flight: &Flight, radius: f64, arc: &Arc, search: &Search) -> TimeOfImpact {
+/// `touch`: the gap in metres below which the ball touches the surface.
+pub(super) fn first_impact(flight: &Flight, radius: f64, arc: &Arc, touch: f64, search: &Search) -> TimeOfImpact {
     let reach = arc.reach(radius);
-    let sign = arc.sign();
     let offset = flight.position - arc.center;
-    let distance = offset.length();
-    let gap = sign * (distance - reach);
-    // sign * (|offset + v t + a t^2 / 2|^2 - reach^2): positive while the ball is clear.
-    let c = [
-        gap * (distance + reach),
-        2.0 * sign * offset.dot(flight.velocity),
-        sign * (flight.velocity.length_squared() + offset.dot(flight.acceleration)),
-        sign * flight.velocity.dot(flight.acceleration),
-        sign * 0.25 * flight.acceleration.length_squared(),
-    ];
-    if gap <= touch_gap(flight, radius) && gap >= -DEEPEST_OVERLAP * radius && arc.spans(offset) {
-        return from_contact(flight, arc, reach, search, c, distance);
+    let gap = arc.sign() * (offset.length() - reach);
+    let touches = gap <= touch && gap >= -DEEPEST_OVERLAP * radius && arc.spans(offset);
+    if touches && approaches_from_contact(flight, arc, offset) {
+        return if search.accepts(0.0) { TimeOfImpact::Overlapping } else { TimeOfImpact::Separated };
     }
-    let crossing = first_approach(flight, arc, reach, search, sign_changes(c, search.from, search.to).as_slice());
-    match (crossing, enters_span(flight, radius, arc, search)) {
+    let crossing = first_crossing(flight, arc, reach, touch, touches, search);
+    if touches {
+        return crossing;
+    }
+    match (crossing, enters_span(flight, radius, arc, touch, search)) {
         (TimeOfImpact::Impact(a), Some(b)) => TimeOfImpact::Impact(if a <= b { a } else { b }),
         (TimeOfImpact::Separated, Some(b)) => TimeOfImpact::Impact(b),
         (crossing, _) => crossing,
     }
 }
 
+/// Whether a ball that touches the surface is on its way into it, beyond what is only rounding.
+fn approaches_from_contact(flight: &Flight, arc: &Arc, offset: DVec2) -> bool {
+    let (rate, pull) = contact_rates(flight, arc, offset);
+    rate < 0.0 || (rate == 0.0 && pull < 0.0)
+}
+
+/// Rate of the gap and half its acceleration, times twice the distance, of a ball that touches: without rounding.
+fn contact_rates(flight: &Flight, arc: &Arc, offset: DVec2) -> (f64, f64) {
+    let (distance, speed) = (offset.length(), flight.velocity.length());
+    let rate = 2.0 * arc.sign() * offset.dot(flight.velocity);
+    let pull = arc.sign() * (flight.velocity.length_squared() + offset.dot(flight.acceleration));
+    (
+        without_rounding(rate, 2.0 * distance * speed),
+        without_rounding(pull, speed * speed + distance * flight.acceleration.length()),
+    )
+}
+
+/// The first time at which the ball comes through the surface from its clear side, within the arc's span.
+fn first_crossing(flight: &Flight, arc: &Arc, reach: f64, touch: f64, touches: bool, search: &Search) -> TimeOfImpact {
+    let offset = flight.position - arc.center;
+    for &(from, to) in near_circle(offset, flight.velocity, flight.acceleration, reach, touch).as_slice() {
+        if from >= search.before {
+            break;
+        }
+        if to < search.after {
+            continue;
+        }
+        let contact = touches && from == 0.0;
+        for &s in crossings(flight, arc, reach, from, to - from, contact).as_slice() {
+            let t = polish(flight, arc, reach, from, to, from + s);
+            if search.accepts(t) && (!contact || t > 0.0) && arc.spans(flight.position_at(t) - arc.center) {
+                return TimeOfImpact::Impact(t);
+            }
+        }
+    }
+    TimeOfImpact::Separated
+}
+
+/// Crossings from the clear side within `length` seconds from `from` on, seconds since `from`.
+///
+/// The polynomial is `|offset + v s + a s^2 / 2|^2 - reach^2`; outside a ball comes through where it falls below 0, inside where
+/// it rises above. In contact at the start its constant term is zero by knowledge, whatever rounding says.
+fn crossings(flight: &Flight, arc: &Arc, reach: f64, from: f64, length: f64, contact: bool) -> Roots {
+    let (offset, velocity) = (flight.position_at(from) - arc.center, flight.velocity_at(from));
+    let (a, distance) = (flight.acceleration, offset.length());
+    let mut c = [
+        (distance - reach) * (distance + reach),
+        2.0 * offset.dot(velocity),
+        velocity.length_squared() + offset.dot(a),
+        velocity.dot(a),
+        0.25 * a.length_squared(),
+    ];
+    if contact {
+        c[0] = 0.0;
+        let (rate, _) = contact_rates(flight, arc, offset);
+        c[1] = arc.sign() * rate;
+    }
+    // Half the second derivative is c2 + 3 c3 s + 6 c4 s^2: convex where its least value is positive.
+    let lowest = if c[4] > 0.0 { (-0.25 * c[3] / c[4]).clamp(0.0, length) } else { 0.0 };
+    if c[2] + 3.0 * lowest * (c[3] + 2.0 * c[4] * lowest) > 0.0 {
+        return if arc.sign() > 0.0 { descent(&c, length) } else { ascent(&c, length) };
+    }
+    let roots = match (contact, c[1] == 0.0) {
+        (false, _) => sign_changes(c, 0.0, length),
+        // In contact, s = 0 is divided out.
+        (true, false) => sign_changes([c[1], c[2], c[3], c[4]], 0.0, length),
+        (true, true) => sign_changes([c[2], c[3], c[4]], 0.0, length),
+    };
+    let slope = |s: f64| c[1] + s * (2.0 * c[2] + s * (3.0 * c[3] + s * 4.0 * c[4]));
+    roots.filtered(|s| arc.sign() * slope(s) < 0.0)
+}
+
+/// The root at which a convex polynomial falls below 0 within `0..=length`: Newton's method from the left.
+fn descent(c: &[f64; 5], length: f64) -> Roots {
+    let mut s = 0.0;
+    for _ in 0..MOST_NEWTON_STEPS {
+        let (value, slope) = value_and_slope(c, s);
+        if value <= 0.0 {
+            // At the very start it is below already: it does not come from the clear side.
+            return if s > 0.0 { Roots::one(s) } else { Roots::default() };
+        }
+        if slope >= 0.0 {
+            return Roots::default();
+        }
+        let next = s - value / slope;
+        if next > length {
+            return Roots::default();
+        }
+        if next <= s {
+            break;
+        }
+        s = next;
+    }
+    Roots::one(s)
+}
+
+/// The root at which a convex polynomial rises above 0 within `0..=length`: Newton's method from the right.
+fn ascent(c: &[f64; 5], length: f64) -> Roots {
+    let mut s = length;
+    for _ in 0..MOST_NEWTON_STEPS {
+        let (value, slope) = value_and_slope(c, s);
+        if value <= 0.0 {
+            return if s < length { Roots::one(s) } else { Roots::default() };
+        }
+        if slope <= 0.0 {
+            return Roots::default();
+        }
+        let next = s - value / slope;
+        if next < 0.0 {
+            return Roots::default();
+        }
+        if next >= s {
+            break;
+        }
+        s = next;
+    }
+    Roots::one(s)
+}
+
+fn value_and_slope(c: &[f64; 5], s: f64) -> (f64, f64) {
+    let value = c[0] + s * (c[1] + s * (c[2] + s * (c[3] + s * c[4])));
+    let slope = c[1] + s * (2.0 * c[2] + s * (3.0 * c[3] + s * 4.0 * c[4]));
+    (value, slope)
+}
+
 /// When a ball that slides along a straight wall passes on to an arc that the wall is tangent to. There the gap is zero
 /// and does not change its sign: it was negative before, where the arc is not, and is negative after.
-fn enters_span(flight: &Flight, radius: f64, arc: &Arc, search: &Search) -> Option<f64> {
+fn enters_span(flight: &Flight, radius: f64, arc: &Arc, touch: f64, search: &Search) -> Option<f64> {
     let (middle, cosine) = arc.span?;
     let sine = (1.0 - cosine * cosine).max(0.0).sqrt();
     let reach = arc.reach(radius);
     let offset = flight.position - arc.center;
-    let touch = touch_gap(flight, radius);
     let mut first: Option<f64> = None;
     for side in [sine, -sine] {
         let end = middle * cosine + middle.perp() * side;
@@ -70,53 +193,17 @@ fn enters_span(flight: &Flight, radius: f64, arc: &Arc, search: &Search) -> Opti
     first
 }
 
-/// In contact at the start: the constant term is zero by knowledge, so t = 0 is divided out.
-fn from_contact(flight: &Flight, arc: &Arc, reach: f64, search: &Search, c: [f64; 5], distance: f64) -> TimeOfImpact {
-    let speed = flight.velocity.length();
-    let rate = without_rounding(c[1], 2.0 * distance * speed);
-    let pull = without_rounding(c[2], speed * speed + distance * flight.acceleration.length());
-    if rate < 0.0 || (rate == 0.0 && pull < 0.0) {
-        return if search.accepts(0.0) { TimeOfImpact::Overlapping } else { TimeOfImpact::Separated };
-    }
-    let later = if rate == 0.0 {
-        sign_changes([pull, c[3], c[4]], search.from, search.to)
-    } else {
-        sign_changes([rate, c[2], c[3], c[4]], search.from, search.to)
-    };
-    first_approach(flight, arc, reach, search, later.as_slice())
-}
-
-/// The first of `times` at which the ball comes closer to the surface, within the arc's span.
-fn first_approach(flight: &Flight, arc: &Arc, reach: f64, search: &Search, times: &[f64]) -> TimeOfImpact {
-    for &t in times {
-        if t <= 0.0 || rate_at(flight, arc, t) >= 0.0 {
-            continue;
-        }
-        let t = polish(flight, arc, reach, search, t);
-        if search.accepts(t) && arc.spans(flight.position_at(t) - arc.center) {
-            return TimeOfImpact::Impact(t);
-        }
-    }
-    TimeOfImpact::Separated
-}
-
-/// Rate of the gap times the distance, m^2/s.
-fn rate_at(flight: &Flight, arc: &Arc, t: f64) -> f64 {
-    arc.sign() * (flight.position_at(t) - arc.center).dot(flight.velocity_at(t))
-}
-
 /// Two Newton steps on the distance itself, which has more digits left near its root than the squares.
-fn polish(flight: &Flight, arc: &Arc, reach: f64, search: &Search, root: f64) -> f64 {
+fn polish(flight: &Flight, arc: &Arc, reach: f64, from: f64, to: f64, root: f64) -> f64 {
     let mut t = root;
     for _ in 0..2 {
         let offset: DVec2 = flight.position_at(t) - arc.center;
         let distance = offset.length();
         let rate = offset.dot(flight.velocity_at(t)) / distance;
         let next = t - (distance - reach) / rate;
-        // A graze has no slope to follow; and the root stays in the part of the flight that was searched.
+        // A graze has no slope to follow, a short hop no digits to gain.
         let correction = (next - t).abs();
-        let allowed = POLISH_STEP * (search.to - search.from);
-        if correction.is_nan() || correction > allowed || next < search.from || next >= search.to {
+        if correction.is_nan() || correction > POLISH_STEP * (t - from) || next < from || next > to {
             break;
         }
         t = next;
@@ -130,12 +217,17 @@ mod tests {
 
     use super::*;
     use crate::physics::ball::Instant;
+    use crate::physics::impact::touch_gap;
     use crate::physics::shapes::Side;
 
     const RADIUS: f64 = 0.0135;
 
     fn flight(position: DVec2, velocity: DVec2) -> Flight {
         Flight { start: Instant::start_of(0), position, velocity, acceleration: DVec2::new(0.0, -0.793) }
+    }
+
+    fn impact(flight: &Flight, arc: &Arc, to: f64) -> TimeOfImpact {
+        first_impact(flight, RADIUS, arc, touch_gap(flight, RADIUS), &Search::up_to(to))
     }
 
     /// The upper half of a circle of 0.257 m, from inside.
@@ -149,7 +241,7 @@ mod tests {
         let post = Arc { center: DVec2::ZERO, radius: 0.02, side: Side::Outside, span: None };
         let drop = flight(DVec2::new(0.0, 0.5), DVec2::ZERO);
         let expected = (2.0 * (0.5 - 0.0335) / 0.793_f64).sqrt();
-        match first_impact(&drop, RADIUS, &post, &Search::up_to(10.0)) {
+        match impact(&drop, &post, 10.0) {
             TimeOfImpact::Impact(t) => assert!((t - expected).abs() < 1e-15, "{t} instead of {expected}"),
             other => panic!("{other:?}"),
         }
@@ -160,9 +252,9 @@ mod tests {
         let post = Arc { center: DVec2::ZERO, radius: 0.02, side: Side::Outside, span: None };
         let place = DVec2::new(0.6, 0.8) * 0.0335;
         let away = flight(place, DVec2::new(0.3, 0.4));
-        assert_eq!(first_impact(&away, RADIUS, &post, &Search::up_to(1.0)), TimeOfImpact::Separated);
+        assert_eq!(impact(&away, &post, 1.0), TimeOfImpact::Separated);
         let towards = flight(place, DVec2::new(-0.3, -0.4));
-        assert_eq!(first_impact(&towards, RADIUS, &post, &Search::up_to(1.0)), TimeOfImpact::Overlapping);
+        assert_eq!(impact(&towards, &post, 1.0), TimeOfImpact::Overlapping);
     }
 
     /// A ball flew up along the left wall, exactly tangent to the arch, and left the table through it.
@@ -170,7 +262,7 @@ mod tests {
     fn a_ball_that_slides_up_a_wall_meets_the_arch_that_begins_there() {
         let start = flight(DVec2::new(RADIUS, 0.71), DVec2::new(0.0, 2.0));
         let expected = (2.0 - (4.0 - 2.0 * 0.793 * 0.1_f64).sqrt()) / 0.793;
-        match first_impact(&start, RADIUS, &arch(), &Search::up_to(1.0)) {
+        match impact(&start, &arch(), 1.0) {
             TimeOfImpact::Impact(t) => assert!((t - expected).abs() < 1e-12, "{t} instead of {expected}"),
             other => panic!("{other:?}"),
         }
@@ -180,6 +272,6 @@ mod tests {
     #[test]
     fn a_ball_that_parts_from_the_wall_by_a_rounding_still_meets_the_arch() {
         let start = flight(DVec2::new(RADIUS, 0.809_999_999_902), DVec2::new(5.87e-7, 81.27));
-        assert!(matches!(first_impact(&start, RADIUS, &arch(), &Search::up_to(1e-3)), TimeOfImpact::Impact(_)));
+        assert!(matches!(impact(&start, &arch(), 1e-3), TimeOfImpact::Impact(_)));
     }
 }

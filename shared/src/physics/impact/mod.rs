@@ -1,11 +1,15 @@
-//! Time of impact of a ball in flight with a static shape: one file a shape.
+//! Time of impact of a ball in flight with a static shape or another ball: one file a shape pair.
 //!
-//! All times are seconds since the flight's start. The search is a pure function of the flight and the shape: it gives
-//! the same bits whenever it is asked, so that a restored world finds the impacts of the original.
+//! All times are seconds since the flight's start. A time of impact is a pure function of the flight and the shape: it
+//! has the same bits whoever asks, whenever, and whatever else stands on the table. So a restored world finds the
+//! impacts of the original, and a broad phase or an element that is never touched changes nothing.
 
 mod ball_arc;
+mod ball_ball;
 mod ball_segment;
+mod near;
 
+pub use ball_ball::ball_ball;
 pub(crate) use ball_segment::leaves_segment;
 
 use super::ball::Flight;
@@ -23,14 +27,21 @@ pub enum TimeOfImpact {
     Separated,
 }
 
-/// The part of a flight that is searched.
+impl TimeOfImpact {
+    /// Seconds after the flight's start, if they meet.
+    pub fn time(self) -> Option<f64> {
+        match self {
+            Self::Impact(t) => Some(t),
+            Self::Overlapping => Some(0.0),
+            Self::Separated => None,
+        }
+    }
+}
+
+/// Which impacts are of interest. It selects among the impacts; it does not change their times.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Search {
-    /// Roots are isolated from this time on ...
-    pub from: f64,
-    /// ... to this one. Both depend on the flight alone, or the root's last bits would depend on who asks.
-    pub to: f64,
-    /// Only an impact before this time is of interest.
+    /// Only an impact before this time.
     pub before: f64,
     /// Impacts before this time are past.
     pub after: f64,
@@ -41,11 +52,16 @@ pub struct Search {
 impl Search {
     /// Everything from the start of the flight up to `to`.
     pub fn up_to(to: f64) -> Self {
-        Self { from: 0.0, to, before: to, after: 0.0, strictly: false }
+        Self { before: to, after: 0.0, strictly: false }
+    }
+
+    /// The whole flight.
+    pub fn whole() -> Self {
+        Self::up_to(f64::INFINITY)
     }
 
     fn accepts(&self, t: f64) -> bool {
-        t >= self.from && t < self.before && (t > self.after || (t == self.after && !self.strictly))
+        t >= 0.0 && t < self.before && (t > self.after || (t == self.after && !self.strictly))
     }
 }
 
@@ -53,7 +69,7 @@ impl Search {
 pub fn ball_shape(flight: &Flight, radius: f64, shape: &Shape, search: &Search) -> TimeOfImpact {
     match shape {
         Shape::Segment(segment) => ball_segment::first_impact(flight, radius, segment, search),
-        Shape::Arc(arc) => ball_arc::first_impact(flight, radius, arc, search),
+        Shape::Arc(arc) => ball_arc::first_impact(flight, radius, arc, touch_gap(flight, radius), search),
     }
 }
 
@@ -66,7 +82,7 @@ pub fn center_passes(flight: &Flight, shape: &Shape, search: &Search) -> TimeOfI
 }
 
 /// The gap below which a ball touches a surface, metres: a few roundings of the coordinates involved.
-fn touch_gap(flight: &Flight, radius: f64) -> f64 {
+pub(crate) fn touch_gap(flight: &Flight, radius: f64) -> f64 {
     TOUCH * (flight.position.abs().max_element() + radius)
 }
 

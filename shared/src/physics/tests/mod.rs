@@ -20,7 +20,7 @@ use crate::table::Table;
 /// Materials: `ideal` bounces for ever, `slick` has no friction, `wood` is real, `dead` takes all of a bounce.
 fn world_with(gravity: DVec2, elements: &str) -> World {
     let source = format!(
-        r#"(format: 1, physics: 1, name: "test", size: (1.0, 1.0), gravity: ({:?}, {:?}), rest_speed: 0.02,
+        r#"(format: 1, physics: 2, name: "test", size: (1.0, 1.0), gravity: ({:?}, {:?}), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.985, 0.985)),
         materials: {{
             "ideal": (restitution: 1.0),
@@ -83,12 +83,12 @@ fn deepest_overlap(world: &World, position: DVec2) -> f64 {
                 }
                 shape => shape.distance(position),
             };
-            deepest = deepest.max(scene.ball_radius - distance);
+            deepest = deepest.max(scene.radius(0) - distance);
         }
     }
     for (spec, flipper) in scene.flippers.iter().zip(&world.state.flippers) {
         let nearest = spec.nearest(spec.direction(flipper.swing), position);
-        deepest = deepest.max(scene.ball_radius - nearest.distance);
+        deepest = deepest.max(scene.radius(0) - nearest.distance);
     }
     deepest
 }

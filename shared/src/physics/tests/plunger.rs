@@ -43,11 +43,11 @@ fn a_ball_follows_the_head_back_and_rests_on_it() {
     assert!(world.serve(table.ball_start).is_some());
     run(&mut world, 1000);
     let home = ball(&world, 0).0.y;
-    assert!((home - 0.1 - table.scene.ball_radius).abs() < 1e-9, "it lies on the head at {home}");
+    assert!((home - 0.1 - table.scene.radius(0)).abs() < 1e-9, "it lies on the head at {home}");
     world.pull(Some(0.5));
     run(&mut world, 1500);
     let (position, velocity) = ball(&world, 0);
     let head = 0.1 - 0.5 * table.scene.plungers[0].stroke;
-    assert!((position.y - head - table.scene.ball_radius).abs() < 1e-6, "ball at {position}, head at {head}");
+    assert!((position.y - head - table.scene.radius(0)).abs() < 1e-6, "ball at {position}, head at {head}");
     assert!(velocity.length() < 1e-6, "{velocity}");
 }

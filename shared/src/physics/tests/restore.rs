@@ -32,7 +32,7 @@ fn meddle(world: &mut World, rng: &mut Rng) {
                     let axis = spec.direction(world.state.flippers[0].swing);
                     let near = spec.pivot + axis * (spec.length * rng.unit()) + axis.perp() * 0.03;
                     let nearest = spec.nearest(axis, near);
-                    (near - nearest.normal * (nearest.distance - world.scene.ball_radius), DVec2::ZERO)
+                    (near - nearest.normal * (nearest.distance - world.scene.radius(0)), DVec2::ZERO)
                 }
                 _ => {
                     let velocity = DVec2::new(rng.between(-3.0, 3.0), rng.between(-3.0, 5.0));

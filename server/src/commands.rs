@@ -1,0 +1,69 @@
+//! What the subcommands do with files and standard output.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use shared::game::replay::{Recorder, Replay};
+use starball_server::simulate::{self, Player, Simulation};
+use starball_server::{load_table, load_text};
+
+use crate::Simulate;
+
+/// `simulate`.
+pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
+    let table = load_table(&arguments.table)?.run_with(arguments.motion, arguments.tick_hz).map(Arc::new)?;
+    if arguments.bot && !table.has_rules {
+        return Err(format!("{:?} is a bare scene: there is nothing for a bot to play", arguments.table));
+    }
+    let mut simulation = Simulation { seconds: arguments.seconds, player: Player::Nobody, seed: arguments.seed };
+    let replay = arguments.inputs.as_deref().map(read_replay).transpose()?;
+    if let Some(replay) = &replay {
+        simulate::replay(&table, replay)?;
+        simulation.player = Player::Inputs(replay.inputs().to_vec());
+        simulation.seconds = replay.ticks() as f64 * table.scene.tick_seconds;
+    } else if arguments.bot {
+        simulation.player = Player::Bot;
+    }
+    if let Some(runs) = arguments.bench {
+        return print(&simulate::bench(&table, &simulation, runs).to_string());
+    }
+    let mut trace = arguments.trace.as_deref().map(create).transpose()?;
+    let mut recorder = arguments.record.is_some().then(|| Recorder::new(&table, arguments.seed));
+    let writer = trace.as_mut().map(|writer| writer.as_mut() as &mut dyn Write);
+    let (game, told) = match simulate::run(&table, &simulation, writer, recorder.as_mut()) {
+        // Whoever reads has enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(()),
+        outcome => outcome.map_err(|error| format!("cannot write the trace: {error}"))?,
+    };
+    if let (Some(recorder), Some(path)) = (recorder, &arguments.record) {
+        let replay = recorder.finish(&game).map_err(|error| error.to_string())?;
+        std::fs::write(path, replay.to_text()).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    if arguments.trace.as_deref() == Some(Path::new("-")) { Ok(()) } else { print(&told.to_string()) }
+}
+
+fn read_replay(path: &Path) -> Result<Replay, String> {
+    let text = load_text(path, shared::game::replay::MOST_TEXT)
+        .map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    Replay::parse(&path.display().to_string(), &text).map_err(|error| error.to_string())
+}
+
+/// The file to write to; `-` is standard output.
+fn create(path: &Path) -> Result<Box<dyn Write>, String> {
+    if path == Path::new("-") {
+        return Ok(Box::new(BufWriter::new(io::stdout())));
+    }
+    let file = File::create(path).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    Ok(Box::new(BufWriter::new(file)))
+}
+
+/// Prints a line.
+fn print(line: &str) -> Result<(), String> {
+    match writeln!(io::stdout(), "{line}") {
+        // Whoever reads has enough.
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written.map_err(|error| format!("cannot print the outcome: {error}")),
+    }
+}

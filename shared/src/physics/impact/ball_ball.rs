@@ -1,0 +1,45 @@
+//! Ball against ball: one of them, seen from the other, flies past a disc.
+
+use glam::DVec2;
+
+use super::{Search, TimeOfImpact, ball_arc, touch_gap};
+use crate::physics::ball::Flight;
+use crate::physics::shapes::{Arc, Side};
+
+/// The first impact of two balls within `search`. Both flights must begin at the same moment; times are seconds since
+/// then.
+pub fn ball_ball(one: &Flight, one_radius: f64, other: &Flight, other_radius: f64, search: &Search) -> TimeOfImpact {
+    let seen = Flight {
+        start: one.start,
+        position: one.position - other.position,
+        velocity: one.velocity - other.velocity,
+        acceleration: one.acceleration - other.acceleration,
+    };
+    let disc = Arc { center: DVec2::ZERO, radius: other_radius, side: Side::Outside, span: None };
+    // What they may be off each other by rounding is that of their coordinates, not of their distance.
+    let (a, b) = (touch_gap(one, one_radius), touch_gap(other, other_radius));
+    ball_arc::first_impact(&seen, one_radius, &disc, if a > b { a } else { b }, search)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::physics::ball::Instant;
+
+    fn flight(position: DVec2, velocity: DVec2) -> Flight {
+        Flight { start: Instant::start_of(0), position, velocity, acceleration: DVec2::new(0.0, -0.8) }
+    }
+
+    #[test]
+    fn two_balls_that_fall_together_meet_as_if_they_did_not_fall() {
+        let (a, b) = (flight(DVec2::ZERO, DVec2::X), flight(DVec2::new(1.0, 0.0), -DVec2::X));
+        assert_eq!(ball_ball(&a, 0.1, &b, 0.2, &Search::whole()), TimeOfImpact::Impact(0.35));
+        assert_eq!(ball_ball(&b, 0.2, &a, 0.1, &Search::whole()), TimeOfImpact::Impact(0.35));
+    }
+
+    #[test]
+    fn balls_that_part_do_not_meet() {
+        let (a, b) = (flight(DVec2::ZERO, -DVec2::X), flight(DVec2::new(0.3, 0.0), DVec2::ZERO));
+        assert_eq!(ball_ball(&a, 0.1, &b, 0.2, &Search::whole()), TimeOfImpact::Separated);
+    }
+}
