@@ -73,24 +73,35 @@ pub struct Body {
 
 /// The impulse between two balls: along `normal`, the unit vector from the second to the first, the manual's two-body
 /// formula; along the surface Coulomb friction up to the point where they roll on each other. Velocity and spin of both.
-pub fn respond_pair(one: &Body, other: &Body, normal: DVec2, material: &Material) -> [(DVec2, f64); 2] {
+/// With a `hop` they part at that speed, in m/s, whatever the material returns.
+pub fn respond_pair(
+    one: &Body,
+    other: &Body,
+    normal: DVec2,
+    material: &Material,
+    hop: Option<f64>,
+) -> [(DVec2, f64); 2] {
     let along = tangent(normal);
     let relative = one.velocity - other.velocity;
     let approach = -relative.dot(normal);
     let approach = if approach > 0.0 { approach } else { 0.0 };
-    let restitution = material.restitution_at(approach);
-    let (pushed_one, pushed_other) = if approach > 0.0 {
-        after_impact(one.velocity, other.velocity, one.mass, other.mass, normal, restitution)
-    } else {
-        (one.velocity, other.velocity)
-    };
+    let restitution = if hop.is_some() { 0.0 } else { material.restitution_at(approach) };
+    let (mut after_one, mut after_other) = (one.velocity, other.velocity);
+    if approach > 0.0 {
+        (after_one, after_other) =
+            after_impact(one.velocity, other.velocity, one.mass, other.mass, normal, restitution);
+    }
+    let parting = hop.unwrap_or(0.0);
+    after_one += normal * (parting / (1.0 + one.mass / other.mass));
+    after_other -= normal * (parting / (1.0 + other.mass / one.mass));
+
     let reduced_mass = 1.0 / (1.0 / one.mass + 1.0 / other.mass);
-    let push = (1.0 + restitution) * approach * reduced_mass;
+    let push = ((1.0 + restitution) * approach + parting) * reduced_mass;
     let slip = relative.dot(along) + (one.spin * one.radius + other.spin * other.radius);
     let most = material.friction * push;
     let drag = -(SLIP_SHARE * slip * reduced_mass).clamp(-most, most);
     let spun = |body: &Body| body.spin + drag / (SPHERE_INERTIA * body.mass * body.radius);
-    [(pushed_one + along * (drag / one.mass), spun(one)), (pushed_other - along * (drag / other.mass), spun(other))]
+    [(after_one + along * (drag / one.mass), spun(one)), (after_other - along * (drag / other.mass), spun(other))]
 }
 
 /// A surface that a ball touches.

@@ -304,11 +304,13 @@ impl World {
         let velocities = [one, other].map(|ball| self.ball_at(ball, offset).1);
         for ball in [one, other] {
             self.impacts[ball] += 1;
-            if self.impacts[ball] > self.most_impacts {
-                let (position, _) = self.ball_at(ball, offset);
-                self.stall(ball, offset, position);
-                return;
+        }
+        // A ball that is worn out can still be pushed by one that is not; so each push wears out one of them.
+        if [one, other].into_iter().all(|ball| self.impacts[ball] > self.most_impacts) {
+            for (ball, place) in [one, other].into_iter().zip(places) {
+                self.stall(ball, offset, place);
             }
+            return;
         }
         let apart = places[0] - places[1];
         let normal = apart.try_normalize().unwrap_or(DVec2::Y);
@@ -330,8 +332,14 @@ impl World {
             radius: self.radius(ball),
             mass: self.mass(ball),
         };
-        let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material);
         let speed = -(velocities[0] - velocities[1]).dot(normal);
+        let pulls = [one, other].map(|ball| self.state.balls[ball].flight.acceleration);
+        let pull = -(pulls[0] - pulls[1]).dot(normal);
+        // One that lies on the other would meet it for ever: it hops instead, by an eighth of pull times tick squared.
+        let hop = pull * scene.tick_seconds;
+        let rests = pull > 0.0 && (speed <= scene.rest_speed || speed <= hop);
+        let hop = rests.then_some(0.5 * hop);
+        let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material, hop);
         let ids = [one, other].map(|ball| self.state.balls[ball].id);
         for (place, (ball, (velocity, spin))) in [one, other].into_iter().zip(after).enumerate() {
             if speed > scene.rest_speed {

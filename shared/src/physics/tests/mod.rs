@@ -1,7 +1,9 @@
 //! Tests of the world as a whole: small tables written in RON, and the one that comes with the game.
 
+mod balls;
 mod elements;
 mod flippers;
+mod needs;
 mod plunger;
 mod restore;
 mod surfaces;
