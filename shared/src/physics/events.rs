@@ -51,7 +51,9 @@ impl World {
 
     /// What happens next at or after `clock` in this tick.
     fn earliest(&mut self, clock: f64) -> Option<(f64, Happening)> {
-        let mut limit = self.scene.tick_seconds;
+        let end = self.scene.tick_seconds;
+        // What happens at a tick's very end is the next tick's, unless a model looks just then whether anything has.
+        let mut limit = if self.scene.motion.looks_now_and_then() { end.next_up() } else { end };
         let mut earliest = None;
         for ball in 0..self.state.balls.len() {
             if let Some((offset, next)) = self.next_static(ball)
@@ -71,6 +73,7 @@ impl World {
             limit = offset;
             earliest = Some((offset, Happening::Balls(one, other)));
         }
+        limit = if limit < end { limit } else { end };
         for index in 0..self.flipper_motions.len() {
             if let Some((offset, raised)) =
                 self.moving_flipper(index).and_then(|flipper| flipper.meets_stop(clock, limit))
@@ -101,7 +104,7 @@ impl World {
         let begins = if elapsed < 0.0 { -elapsed } else { 0.0 };
         let span = Span { from: elapsed + begins, to: elapsed + dt };
         let parts = self.scene.motion.model().parts(&self.scene, &subject.flight, span);
-        let moments = parts.map(|parts| Moments { first: begins, step: (dt - begins) / f64::from(parts), parts });
+        let moments = parts.map(|parts| Moments { first: begins, end: dt, parts });
         let mut limit = limit;
         let mut first = None;
         for index in 0..self.flipper_motions.len() {

@@ -174,6 +174,12 @@ impl World {
             radii: [scene.radius(balls[0].kind), scene.radius(balls[1].kind)],
             tick: Span { from: 0.0, to: end },
         };
-        scene.motion.model().next_meeting(&pair).map(|time| since.later_by(time, dt))
+        let time = scene.motion.model().next_meeting(&pair)?;
+        if scene.motion.looks_now_and_then() {
+            // The end of this tick is in this tick.
+            let offset = since.offset + time;
+            return Some(Instant { tick: since.tick, offset: if offset < dt { offset } else { dt } });
+        }
+        Some(since.later_by(time, dt))
     }
 }

@@ -142,11 +142,11 @@ impl Mover for MovingPlunger<'_> {
     }
 }
 
-/// The moments at which a model looks that does not look all the time: offsets within the tick.
+/// The moments at which a model looks that does not look all the time: offsets within the tick, from the first to its end.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Moments {
     pub(super) first: f64,
-    pub(super) step: f64,
+    pub(super) end: f64,
     pub(super) parts: u32,
 }
 
@@ -183,8 +183,9 @@ pub(super) fn first_impact(
         // After an impact that took all of the bounce, a rounding is left; to meet that again would never end.
         (speed < -GRAZE * (velocity.length() + surface.length())).then_some(normal)
     };
-    if let Some(Moments { first, step, parts }) = moments {
-        let offsets = (0..parts).map(|part| first + step * f64::from(part));
+    if let Some(Moments { first, end, parts }) = moments {
+        let step = (end - first) / f64::from(parts);
+        let offsets = (0..=parts).map(|part| if part == parts { end } else { first + step * f64::from(part) });
         return offsets.filter(|&offset| offset >= from && offset < until).find_map(|offset| {
             let gap = gap(offset);
             let normal = if gap <= 0.0 { closing(offset)? } else { return None };

@@ -378,10 +378,13 @@ impl World {
             scene.motion.model().next_event(&mut Query { scene, state, ball, tick, scratch: &mut self.scratch })
         });
         self.next[index] = Some(next);
-        if matches!(next, Next::ClearUntil(_)) || next.time() >= end {
+        let looks_at_the_end = self.scene.motion.looks_now_and_then();
+        let is_later = if looks_at_the_end { next.time() > end } else { next.time() >= end };
+        if matches!(next, Next::ClearUntil(_)) || is_later {
             return None;
         }
         let offset = next.time() - elapsed;
+        let offset = if looks_at_the_end && offset > dt { dt } else { offset };
         Some((if offset > 0.0 { offset } else { 0.0 }, next))
     }
 

@@ -6,6 +6,7 @@
 
 // 2 File structure, 3 Algorithms and techniques: the world, the game loop, how a ball moves, ...
 mod pixel_loop;
+mod world;
 
 // ... what it hits and what becomes of it.
 mod circle_circle;
@@ -22,6 +23,25 @@ mod reflection;
 mod swept_area;
 
 use glam::DVec2;
+use shared::physics::World;
+use shared::physics::ball::Instant;
+use shared::physics::motion::Motion;
+use shared::table::Table;
+
+/// The world of a table or scene, run by that model.
+#[track_caller]
+fn world_of(source: &str, motion: Motion) -> World {
+    let table = Table::parse("test.ron", source).unwrap_or_else(|error| panic!("{error}"));
+    World::new(table.run_with(Some(motion), None).expect("its own rate").scene)
+}
+
+/// Centre and velocity of a world's only ball, as anybody sees them between two steps.
+#[track_caller]
+fn ball_of(world: &World) -> (DVec2, DVec2) {
+    let state = world.state();
+    let [ball] = &state.balls[..] else { panic!("{} balls", state.balls.len()) };
+    ball.at(Instant::start_of(state.tick), world.scene().tick_seconds)
+}
 
 /// Unit vector at `degrees` from +x, counter-clockwise; exact where it lies on an axis.
 fn unit_at(degrees: i32) -> DVec2 {

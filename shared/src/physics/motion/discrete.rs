@@ -1,5 +1,5 @@
-//! The discrete model: once a tick it looks whether the ball overlaps something. What is thinner than a step it may miss:
-//! the manual's problem 1.
+//! The discrete model: once a tick, after the move, it looks whether the ball overlaps something. What is thinner than a step
+//! it may miss: the manual's problem 1.
 
 use super::super::ball::Flight;
 use super::super::scene::Scene;

@@ -151,6 +151,6 @@ pub(super) trait MotionModel: Sync {
     /// When two balls meet, likewise.
     fn next_meeting(&self, pair: &Pair<'_>) -> Option<f64>;
 
-    /// Into how many parts a ball's tick is cut, at whose beginnings alone the model looks; `None`: it looks all the time.
+    /// Into how many parts a ball's tick is cut, at whose ends alone the model looks; `None`: it looks all the time.
     fn parts(&self, scene: &Scene, flight: &Flight, tick: Span) -> Option<u32>;
 }

@@ -1,12 +1,15 @@
 //! What the models that only look now and then have in common: a test for overlap at each moment of a tick at which they
 //! look, and the replacement of what overlaps.
+//!
+//! They look at the end of each part of a tick, after the ball has moved: the last time at the tick's own end, so that
+//! what a tick leaves is corrected already. At its beginning they look only where a flight begins.
 
 use glam::DVec2;
 
 use super::super::impact::{Search, center_passes};
 use super::super::shapes::{Bounds, Shape, Side};
 use super::search::{is_part_of_support, support_ends};
-use super::{Next, Pair, Query};
+use super::{Next, Pair, Query, Span};
 
 /// What a ball overlaps: how deep, m, and where it has to be placed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -15,17 +18,17 @@ struct Overlap {
     placed: DVec2,
 }
 
-/// The first of the tick's `parts` at whose beginning the ball overlaps something that it approaches, or the sensor that it
-/// passes before.
+/// The first of the moments between the tick's `parts` at which the ball overlaps something that it approaches, or the sensor
+/// that it passes before.
 pub(super) fn next_event(query: &mut Query<'_>, parts: u32) -> Next {
     let (scene, state, ball, tick) = (query.scene, query.state, query.ball, query.tick);
     let flight = &ball.flight;
     let (past, past_index) = ball.past.unwrap_or((f64::NEG_INFINITY, 0));
-    let (mut limit, mut next) = (tick.to, Next::ClearUntil(tick.to));
+    let (mut limit, mut passed) = (tick.to, None);
     // 1. What the centre passes, and the end of what the ball lies on: these are no obstacles, and their times are known.
     if let Some(t) = support_ends(scene, ball).filter(|&t| t < tick.to) {
         limit = if t > tick.from { t } else { tick.from };
-        next = Next::LeavesSupport(limit);
+        passed = Some(Next::LeavesSupport(limit));
     }
     if scene.needs.sensors {
         let around = Bounds::of_flight(flight, tick.from, tick.to);
@@ -35,7 +38,7 @@ pub(super) fn next_event(query: &mut Query<'_>, parts: u32) -> Next {
                 let search = Search { before: limit, after: past, strictly: index <= past_index };
                 if let Some(time) = center_passes(flight, &collider.shape, &search).time() {
                     limit = time;
-                    next = Next::Meets { time, collider: index, position: flight.position_at(time) };
+                    passed = Some(Next::Meets { time, collider: index, position: flight.position_at(time) });
                 }
             }
         });
@@ -43,9 +46,11 @@ pub(super) fn next_event(query: &mut Query<'_>, parts: u32) -> Next {
     // 2. What the ball overlaps, one part after the other.
     let radius = scene.radius(ball.kind);
     let step = (tick.to - tick.from) / f64::from(parts);
-    for part in 0..parts {
-        let t = tick.from + step * f64::from(part);
-        if t >= limit {
+    // At a tick's beginning it was looked at the end of the last one, unless the flight begins there.
+    let first = u32::from(tick.from > 0.0);
+    for moment in first..=parts {
+        let t = moment_of(tick, moment, parts);
+        if t >= limit && passed.is_some() {
             break;
         }
         if t < past {
@@ -77,7 +82,12 @@ pub(super) fn next_event(query: &mut Query<'_>, parts: u32) -> Next {
             return Next::Meets { time: t, collider, position };
         }
     }
-    next
+    passed.unwrap_or(Next::ClearUntil(tick.to))
+}
+
+/// The end of the tick's first `moment` of `parts` parts; of the last one, the tick's own.
+fn moment_of(tick: Span, moment: u32, parts: u32) -> f64 {
+    if moment == parts { tick.to } else { tick.from + (tick.to - tick.from) / f64::from(parts) * f64::from(moment) }
 }
 
 /// Every collider near a box, each once or more often.
@@ -126,12 +136,11 @@ fn overlap_at(shape: &Shape, radius: f64, before: DVec2, position: DVec2, veloci
     (gap < 0.0 && velocity.dot(normal) < 0.0).then(|| Overlap { depth: -gap, placed: position - normal * gap })
 }
 
-/// The first of the tick's `parts` at whose beginning two balls overlap and approach each other.
+/// The first of the moments between the tick's `parts` at which two balls overlap and approach each other.
 pub(super) fn next_meeting(pair: &Pair<'_>, parts: u32) -> Option<f64> {
     let ([one, other], tick) = (pair.flights, pair.tick);
-    let step = (tick.to - tick.from) / f64::from(parts);
     let reach = pair.radii[0] + pair.radii[1];
-    (0..parts).map(|part| tick.from + step * f64::from(part)).find(|&t| {
+    (0..=parts).map(|moment| moment_of(tick, moment, parts)).find(|&t| {
         let apart = one.position_at(t) - other.position_at(t);
         let closing = apart.dot(one.velocity_at(t) - other.velocity_at(t));
         apart.length() < reach && closing < 0.0
