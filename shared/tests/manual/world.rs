@@ -1,12 +1,73 @@
-//! 3 GameLoop (`GameCore`): move, correct, draw.
+//! 2 File structure: the world with its floors and elements (`WorldManager`), and 3 GameLoop (`GameCore`): move, correct,
+//! draw.
 
 use glam::DVec2;
-use shared::physics::World;
 use shared::physics::ball::Instant;
 use shared::physics::motion::Motion;
 use shared::physics::shapes::{Shape, Side};
+use shared::physics::{EventKind, World};
+use shared::table::Table;
 
 use crate::{ball_of, world_of};
+
+/// The ball falls from one floor through the hole to the other, in every model: see the file.
+const TWO_FLOORS: &str = include_str!("../../tables/scenes/two-floors.ron");
+
+/// Its elements by floor, and what leads from one to the other.
+const UPPER: [&str; 2] = ["frame", "post"];
+const LOWER: [&str; 4] = ["basin", "island", "shelf", "stairs"];
+const HOLE: &str = "hole";
+
+/// What the ball of a scene meets within 20 seconds: names of elements, and where.
+fn meetings(source: &str, motion: Motion) -> Vec<(String, DVec2)> {
+    let table = Table::parse("two-floors.ron", source).unwrap_or_else(|error| panic!("{error}"));
+    let mut world = World::new(table.run_with(Some(motion), None).expect("its own rate").scene);
+    let mut met = Vec::new();
+    for _ in 0..20_000 {
+        for event in world.step() {
+            let (EventKind::Touched { element, .. } | EventKind::Passed { element }) = event.kind else {
+                panic!("{motion}: {event:?}")
+            };
+            met.push((table.file.elements[usize::from(element)].name().to_owned(), event.position));
+        }
+    }
+    met
+}
+
+#[test]
+fn a_ball_meets_what_is_on_its_own_floor_and_after_the_hole_what_is_on_the_other() {
+    for motion in Motion::ALL {
+        let met = meetings(TWO_FLOORS, motion);
+        let hole = met.iter().position(|(name, _)| name == HOLE).expect("it falls through");
+        let (above, below) = (&met[..hole], &met[hole + 1..]);
+        assert!(above.iter().all(|(name, _)| UPPER.contains(&name.as_str())), "{motion}: {above:?}");
+        assert!(below.iter().all(|(name, _)| LOWER.contains(&name.as_str())), "{motion}: {below:?}");
+        let is_beyond_the_frame = |at: &DVec2| at.y < 0.0 || at.x < 0.0 || at.x > 1.0;
+        assert!(below.iter().any(|(_, at)| is_beyond_the_frame(at)), "{motion}: the frame no longer holds it");
+    }
+}
+
+/// The same scene with everything on one floor: the ball comes no farther than the shelf.
+#[test]
+fn without_floors_what_is_below_would_be_in_the_way() {
+    let flat = TWO_FLOORS.replace(", floor: 1", "");
+    for motion in Motion::ALL {
+        let met = meetings(&flat, motion);
+        assert!(met.iter().any(|(name, _)| name == "shelf"), "{motion}");
+        assert!(met.iter().all(|(name, _)| name != HOLE), "{motion}");
+    }
+}
+
+/// The manual's elements: the pinball, lines and circles, from outside and from inside; and what joins its floors.
+#[test]
+fn every_element_of_the_world_is_met() {
+    for motion in Motion::ALL {
+        let met = meetings(TWO_FLOORS, motion);
+        for name in UPPER.iter().chain(&LOWER).chain(&[HOLE]) {
+            assert!(met.iter().any(|(other, _)| other == name), "{motion}: {name}");
+        }
+    }
+}
 
 /// How deep a ball is in what it overlaps most, m; negative: how far it is from the nearest thing.
 fn deepest_overlap(world: &World) -> f64 {
