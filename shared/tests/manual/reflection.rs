@@ -28,7 +28,7 @@ fn printed_angle(v: DVec2, obstacle_gradient: f64) -> (f64, f64) {
 }
 
 /// `CollisionResult` as printed, but for its loss of speed.
-fn printed_reflection(v: DVec2, p: DVec2, q: DVec2) -> DVec2 {
+pub(crate) fn printed_reflection(v: DVec2, p: DVec2, q: DVec2) -> DVec2 {
     // A vertical line gets a dummy.
     let gradient = if p.x == q.x { 0.0 } else { (q.y - p.y) / (q.x - p.x) };
     let (gamma, way) = printed_angle(v, gradient);

@@ -10,7 +10,7 @@ use shared::physics::shapes::{Segment, Shape};
 
 use crate::{assert_near, unit_at};
 
-const RADIUS: f64 = 0.1;
+pub(crate) const RADIUS: f64 = 0.1;
 const FROM: DVec2 = DVec2::ZERO;
 const TO: DVec2 = DVec2::new(1.3, 0.0);
 
@@ -38,7 +38,7 @@ fn swept_area(from: DVec2, to: DVec2) -> [Ends; 2] {
 }
 
 /// Whether one of the two lines meets the obstacle.
-fn area_meets(from: DVec2, to: DVec2, obstacle: Ends) -> bool {
+pub(crate) fn area_meets(from: DVec2, to: DVec2, obstacle: Ends) -> bool {
     swept_area(from, to).iter().any(|&side| segments_intersect(side, obstacle))
 }
 

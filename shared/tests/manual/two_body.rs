@@ -115,7 +115,7 @@ fn energy_is_kept_at_ed_1_and_lost_by_the_formula_below() {
 }
 
 /// "How we used this", as printed, for a ball at `axis` from the centre of what it hits.
-fn as_used(v: DVec2, axis: DVec2, ed: f64) -> DVec2 {
+pub(crate) fn as_used(v: DVec2, axis: DVec2, ed: f64) -> DVec2 {
     let friction = 0.999;
     let mass_simulation = 0.3;
     let (ax, ay) = (axis.x, axis.y);

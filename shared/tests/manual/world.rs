@@ -8,7 +8,7 @@ use shared::physics::shapes::{Shape, Side};
 use shared::physics::{EventKind, World};
 use shared::table::Table;
 
-use crate::{ball_of, world_of};
+use crate::{ball_among, ball_of, world_of};
 
 /// The ball falls from one floor through the hole to the other, in every model: see the file.
 const TWO_FLOORS: &str = include_str!("../../tables/scenes/two-floors.ron");
@@ -103,11 +103,9 @@ fn deepest_seen(elements: &str, motion: Motion) -> f64 {
 /// A ball that is moved by 10 m in a step, right into a wall: nobody sees it there.
 #[test]
 fn game_loop_corrects_in_the_same_step_what_the_move_overlapped() {
-    let wall = "Scene(gravity: (0.0, 0.0), tick_hz: 1, pixel: 1.0, bounds: (-50.0, -50.0, 50.0, 50.0),
-        balls: [(position: (0.0, 0.0), velocity: (10.0, 0.0), radius: 1.0)],
-        elements: [Wall(points: [(10.5, -9.0), (10.5, 9.0)])])";
+    let source = ball_among(1.0, DVec2::new(10.0, 0.0), 0.0, "Wall(points: [(10.5, -9.0), (10.5, 9.0)])");
     for motion in Motion::ALL {
-        let mut world = world_of(wall, motion);
+        let mut world = world_of(&source, motion);
         assert_eq!(world.step().len(), 1, "{motion}");
         let (position, velocity) = ball_of(&world);
         assert_eq!(velocity, DVec2::new(-10.0, 0.0), "{motion}");
