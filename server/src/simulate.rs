@@ -80,8 +80,9 @@ impl<'a> Inputs<'a> {
 }
 
 /// Plays, and tells the outcome as one line of JSON: `score` (points of all games together), `games` begun, `balls`
-/// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`. Table,
-/// seconds, seed and inputs decide every bit of it.
+/// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`; of a bare
+/// scene `events` (impacts and whatever else happened), `escaped` balls, `ticks` and `digest`. Table, seconds, seed and inputs
+/// decide every bit of it.
 ///
 /// `trace` gets a line of JSON for every impact, then one with the final state; `recorder` notes every tick.
 ///
@@ -97,6 +98,7 @@ pub fn run(
     let mut player = Inputs::new(simulation);
     let ticks = simulation.ticks(table);
     let (mut score, mut games, mut balls, mut rescued) = (0_u64, 0_u64, 0_u64, 0_u64);
+    let (mut happened, mut escaped) = (0_u64, 0_u64);
     let mut inputs = Vec::new();
     for _ in 0..ticks {
         player.choose(&game, &mut inputs);
@@ -108,6 +110,10 @@ pub fn run(
                 GameEventKind::Rescued => rescued += 1,
                 _ => {}
             }
+        }
+        for event in game.world().events() {
+            happened += 1;
+            escaped += u64::from(event.kind == EventKind::Escaped);
         }
         if let Some(trace) = &mut trace {
             for event in game.world().events() {
@@ -123,9 +129,13 @@ pub fn run(
         writeln!(trace, "{}", final_line(table, &game, &digest))?;
         trace.flush()?;
     }
-    let told = json!({
-        "score": score, "games": games, "balls": balls, "rescued": rescued, "ticks": ticks, "digest": digest,
-    });
+    let told = if table.has_rules {
+        json!({
+            "score": score, "games": games, "balls": balls, "rescued": rescued, "ticks": ticks, "digest": digest,
+        })
+    } else {
+        json!({ "events": happened, "escaped": escaped, "ticks": ticks, "digest": digest })
+    };
     Ok((game, told))
 }
 
@@ -230,11 +240,15 @@ mod tests {
     use super::*;
     use crate::load_table;
 
+    fn classic(seed: u64) -> (Arc<Table>, Simulation) {
+        let table = load_table("classic").expect("it is shipped");
+        (table, Simulation { seconds: 30.0, player: Player::Bot, seed })
+    }
+
     #[test]
     fn the_same_table_time_and_seed_give_the_same_line() {
-        let table = load_table("classic").expect("it is shipped");
         let line = |seed| {
-            let simulation = Simulation { seconds: 30.0, player: Player::Bot, seed };
+            let (table, simulation) = classic(seed);
             run(&table, &simulation, None, None).expect("nothing is written").1
         };
         assert_eq!(line(1), line(1));
@@ -243,5 +257,77 @@ mod tests {
         assert_eq!(told["ticks"], 30_000);
         assert!(told["score"].as_u64().is_some_and(|score| score > 0), "{told}");
         assert!(told["digest"].as_str().is_some_and(|digest| digest.len() == 16), "{told}");
+    }
+
+    fn scene(text: &str) -> Arc<Table> {
+        Arc::new(Table::parse("scene.ron", text).unwrap_or_else(|error| panic!("{error}")))
+    }
+
+    fn traced(table: &Arc<Table>, seconds: f64) -> Vec<Value> {
+        let mut bytes = Vec::new();
+        let simulation = Simulation { seconds, player: Player::Nobody, seed: 0 };
+        run(table, &simulation, Some(&mut bytes), None).expect("a list takes everything");
+        let text = String::from_utf8(bytes).expect("JSON is text");
+        text.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect()
+    }
+
+    /// A ball falls half a metre onto a floor far from (0, 0), and bounces.
+    #[test]
+    fn a_trace_tells_each_impact_at_its_exact_time_in_the_files_coordinates() {
+        let table = scene(
+            "Scene(gravity: (0.0, -1.0), balls: [(position: (1000000.5, 0.75), radius: 0.25)], elements: [
+                Wall(name: \"floor\", points: [(1000000.0, 0.0), (1000001.0, 0.0)], restitution: 0.5)])",
+        );
+        let lines = traced(&table, 1.5);
+        assert_eq!(lines.len(), 2, "{lines:?}");
+        let impact = &lines[0];
+        assert_eq!((impact["element"].as_str(), impact["ball"].as_u64()), (Some("floor"), Some(0)));
+        let number = |value: &Value| value.as_f64().expect("a number");
+        assert!((number(&impact["t"]) - 1.0).abs() < 1e-15, "{impact}");
+        assert_eq!(impact["pos"], json!([1_000_000.5, 0.25]));
+        assert_eq!(impact["vel"], json!([0.0, 0.5]));
+        let end = &lines[1];
+        assert_eq!((end["final"].as_bool(), end["ticks"].as_u64()), (Some(true), Some(1500)));
+        assert!((number(&end["balls"][0]["pos"][1]) - 0.375).abs() < 1e-14, "{end}");
+        assert!(end["digest"].is_string());
+    }
+
+    #[test]
+    fn a_trace_tells_of_both_balls_that_meet_and_of_one_that_escapes() {
+        let balls = "balls: [(position: (0.0, 0.0), velocity: (1.0, 0.0)), (position: (0.3, 0.0))]";
+        let table = scene(&format!("Scene(gravity: (0.0, 0.0), {balls}, bounds: (-1.0, -1.0, 1.0, 1.0))"));
+        let lines = traced(&table, 3.0);
+        let told = |place: usize| (lines[place]["event"].as_str(), lines[place]["ball"].as_u64());
+        assert_eq!(
+            (told(0), told(1), told(2)),
+            ((Some("met"), Some(0)), (Some("met"), Some(1)), (Some("escaped"), Some(1)))
+        );
+        assert_eq!(lines[0]["element"], "ball 1");
+        assert_eq!(lines.len(), 4);
+    }
+
+    #[test]
+    fn a_bench_counts_the_events_of_one_run() {
+        let table = scene(
+            "Scene(gravity: (0.0, 0.0), balls: [(position: (0.5, 0.5), velocity: (1.0, 0.0))], elements: [
+                Wall(points: [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.0, 0.0)])])",
+        );
+        let told = bench(&table, &Simulation { seconds: 10.0, player: Player::Nobody, seed: 0 }, 3);
+        assert_eq!(told["events"], 10, "one bounce for each 0.973 m");
+        for field in ["ns_per_simulated_second", "ns_per_tick", "ns_per_event"] {
+            assert!(told[field].as_f64().is_some_and(|cost| cost > 0.0), "{told}");
+        }
+    }
+
+    #[test]
+    fn a_recorded_game_is_played_again_by_its_inputs() {
+        let (table, simulation) = classic(7);
+        let mut recorder = Recorder::new(&table, 7);
+        let (game, told) = run(&table, &simulation, None, Some(&mut recorder)).expect("nothing is written");
+        let log = recorder.finish(&game).expect("it is short");
+        let read = Replay::parse("game", &log.to_text()).expect("it was just written");
+        assert_eq!(replay(&table, &read), Ok(()));
+        let again = Simulation { player: Player::Inputs(read.inputs().to_vec()), ..simulation };
+        assert_eq!(run(&table, &again, None, None).expect("nothing is written").1, told);
     }
 }
