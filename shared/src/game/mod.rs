@@ -51,7 +51,9 @@ impl Game {
     /// A table with nobody at it.
     pub fn new(table: Arc<Table>) -> Self {
         let world = World::new(Arc::clone(&table.scene));
-        Self { table, world, play: state::Play::default(), events: Vec::with_capacity(64), now: 0 }
+        // Of each physical event the rules may make points and a message.
+        let events = Vec::with_capacity(3 * world.room_for_events());
+        Self { table, world, play: state::Play::default(), events, now: 0 }
     }
 
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.

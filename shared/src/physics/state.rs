@@ -14,6 +14,8 @@ use crate::physics::flipper::FlipperRest;
 
 /// Most balls in play at once.
 pub const MOST_BALLS: usize = 1000;
+/// Balls for which there is room where balls do not meet.
+const FEW_BALLS: usize = 16;
 /// Most flippers, plungers or targets on a table.
 pub const MOST_PARTS: usize = 64;
 
@@ -93,15 +95,23 @@ pub enum StateError {
 impl WorldState {
     /// The state of a world in which nothing has happened.
     pub fn new(scene: &Scene) -> Self {
-        Self {
+        let mut state = Self {
             needs: scene.needs,
             tick: 0,
             served: 0,
-            balls: Vec::with_capacity(if scene.needs.ball_ball { MOST_BALLS } else { 16 }),
+            balls: Vec::new(),
             flippers: vec![FlipperState::default(); scene.flippers.len()],
             plungers: vec![PlungerState::default(); scene.plungers.len()],
             targets: vec![TargetState::Up; usize::from(scene.targets)],
-        }
+        };
+        state.reserve_balls();
+        state
+    }
+
+    /// Makes room for as many balls as there may be in play.
+    pub(super) fn reserve_balls(&mut self) {
+        let room = if self.needs.ball_ball { MOST_BALLS } else { FEW_BALLS };
+        self.balls.reserve(room.saturating_sub(self.balls.len()));
     }
 
     /// Whether a collider is there.

@@ -18,6 +18,12 @@ use super::scene::{Presence, Scene};
 use super::shapes::Bounds;
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
+/// Room for what happens in one tick: that many events, and that many for each ball of the start. A tick in which more happens
+/// allocates, once.
+const LEAST_EVENTS: usize = 256;
+/// See [`LEAST_EVENTS`].
+const EVENTS_PER_BALL: usize = 16;
+
 /// Something that happened to a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
@@ -104,7 +110,7 @@ impl World {
         let per_tick = MOST_IMPACTS_PER_SECOND * scene.tick_seconds;
         let mut world = Self {
             next: Vec::with_capacity(MOST_BALLS),
-            events: Vec::with_capacity(256),
+            events: Vec::with_capacity(LEAST_EVENTS.max(EVENTS_PER_BALL * scene.start.len())),
             flipper_motions: vec![None; scene.flippers.len()],
             plunger_motions: vec![None; scene.plungers.len()],
             impacts: Vec::with_capacity(MOST_BALLS),
@@ -168,6 +174,11 @@ impl World {
         &self.events
     }
 
+    /// How many events a step can report without allocating.
+    pub(crate) fn room_for_events(&self) -> usize {
+        self.events.capacity()
+    }
+
     /// The state as it is between two ticks.
     pub fn state(&self) -> &WorldState {
         &self.state
@@ -187,6 +198,8 @@ impl World {
         self.next.clear();
         self.next.resize(state.balls.len(), None);
         self.state = state;
+        // Room for the balls that will be served: a step allocates nothing.
+        self.state.reserve_balls();
         self.meetings.forget(self.state.balls.len());
         self.events.clear();
         self.quiet_until = 0;
