@@ -59,10 +59,12 @@ impl Game {
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
     #[inline]
     pub fn step(&mut self, inputs: &[Input]) -> &[GameEvent] {
-        self.events.clear();
+        // As in the world's step: a quiet tick writes no length.
+        if !self.events.is_empty() {
+            self.events.clear();
+        }
         // A bare scene has no rules: its world moves, and that is all.
         if !self.table.has_rules {
-            self.now = self.world.state().tick;
             if !self.world.step().is_empty() {
                 self.show_physics();
             }
@@ -90,8 +92,10 @@ impl Game {
         self.free_stuck_ball();
     }
 
-    /// Tells what happened in a world without rules.
+    /// Tells what happened in a world without rules. Kept out of the loop of quiet ticks.
+    #[inline(never)]
     fn show_physics(&mut self) {
+        self.now = self.world.state().tick - 1;
         for event in self.world.events() {
             if let Some(kind) = GameEventKind::of_physics(event) {
                 self.events.push(GameEvent { tick: self.now, kind });
