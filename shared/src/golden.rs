@@ -28,6 +28,7 @@ pub const SCENES: &[(&str, u64, &str)] = &[
     ("box", 400, include_str!("../tables/scenes/box.ron")),
     ("gas", 100, include_str!("../tables/scenes/gas.ron")),
     ("hollow", 400, include_str!("../tables/scenes/hollow.ron")),
+    ("two-floors", 3_000, include_str!("../tables/scenes/two-floors.ron")),
 ];
 
 /// Seed of the bot, and of the numbers that the maths is tried with.
