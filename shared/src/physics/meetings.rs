@@ -5,6 +5,7 @@
 use super::ball::{Flight, Instant};
 use super::motion::{Motion, Pair, Span};
 use super::shapes::Bounds;
+use super::ways::Ways;
 use super::world::World;
 
 /// What is known about the next meeting of a ball.
@@ -36,21 +37,31 @@ impl Known {
 #[derive(Debug, Clone, Default)]
 pub(super) struct Meetings {
     known: Vec<Known>,
-    /// Boxes around the balls' ways in this tick, in models that look no farther.
-    boxes: Vec<Option<Bounds>>,
+    /// In models that look no farther than a tick.
+    ways: Ways,
+    /// Balls with a new flight, whose ways are not in there yet.
+    outdated: Vec<usize>,
+    /// Of one ball: whose ways come near its own.
+    near: Vec<usize>,
 }
 
 impl Meetings {
     pub(super) fn with_capacity(balls: usize) -> Self {
-        Self { known: Vec::with_capacity(balls), boxes: Vec::with_capacity(balls) }
+        Self {
+            known: Vec::with_capacity(balls),
+            ways: Ways::with_capacity(balls),
+            outdated: Vec::with_capacity(balls),
+            // Each ball in reach, and each that has moved.
+            near: Vec::with_capacity(2 * balls),
+        }
     }
 
     /// Balls came or went, or a new tick began: nothing is known.
     pub(super) fn forget(&mut self, balls: usize) {
         self.known.clear();
         self.known.resize(balls, Known::Nothing);
-        self.boxes.clear();
-        self.boxes.resize(balls, None);
+        self.ways.forget();
+        self.outdated.clear();
     }
 
     /// A ball has a new flight.
@@ -61,8 +72,8 @@ impl Meetings {
                 *known = Known::Nothing;
             }
         }
-        if let Some(around) = self.boxes.get_mut(ball) {
-            *around = None;
+        if self.ways.is_known() && !self.outdated.contains(&ball) {
+            self.outdated.push(ball);
         }
     }
 }
@@ -111,43 +122,51 @@ impl World {
         if self.meetings.known[ball] != Known::Nothing {
             return;
         }
-        let mut best = Known::NoMeeting;
-        let own_box = self.way_in_tick(ball);
-        for other in 0..self.state.balls.len() {
-            if other == ball {
-                continue;
+        self.meetings.known[ball] = Known::NoMeeting;
+        let balls = self.state.balls.len();
+        if self.scene.motion == Motion::Exact {
+            for other in (0..balls).filter(|&other| other != ball) {
+                self.look_at_pair(ball, other);
             }
-            if let Some(own) = own_box
-                && let Some(others) = self.way_in_tick(other)
-                && !own.meets(&others)
-            {
-                continue;
-            }
-            let Some(at) = self.meeting_of(ball.min(other), ball.max(other)) else { continue };
-            if best.is_after(at, other) {
-                best = Known::Meeting { partner: other, at };
-            }
-            if self.meetings.known[other].is_after(at, ball) {
-                self.meetings.known[other] = Known::Meeting { partner: ball, at };
-            }
+            return;
         }
-        self.meetings.known[ball] = best;
+        if self.meetings.ways.is_known() {
+            while let Some(other) = self.meetings.outdated.pop() {
+                let way = self.way_in_tick(other);
+                self.meetings.ways.change(other, way);
+            }
+        } else {
+            let mut ways = core::mem::take(&mut self.meetings.ways);
+            ways.learn((0..balls).map(|ball| self.way_in_tick(ball)));
+            self.meetings.ways = ways;
+        }
+        let mut near = core::mem::take(&mut self.meetings.near);
+        near.clear();
+        self.meetings.ways.near(ball, |other| near.push(other));
+        for &other in &near {
+            self.look_at_pair(ball, other);
+        }
+        self.meetings.near = near;
     }
 
-    /// The box around a ball on its way through this tick, in models that look no farther.
-    fn way_in_tick(&mut self, ball: usize) -> Option<Bounds> {
-        if self.scene.motion == Motion::Exact {
-            return None;
+    /// Makes known to both when two balls meet, if it is sooner than what they know.
+    fn look_at_pair(&mut self, ball: usize, other: usize) {
+        let Some(at) = self.meeting_of(ball.min(other), ball.max(other)) else { return };
+        for (one, partner) in [(ball, other), (other, ball)] {
+            if self.meetings.known[one].is_after(at, partner) {
+                self.meetings.known[one] = Known::Meeting { partner, at };
+            }
         }
-        if self.meetings.boxes[ball].is_none() {
-            let (dt, tick) = (self.scene.tick_seconds, self.state.tick);
-            let subject = &self.state.balls[ball];
-            let from = Instant::start_of(tick).since(subject.flight.start, dt);
-            let to = Instant::start_of(tick + 1).since(subject.flight.start, dt);
-            let around = Bounds::of_flight(&subject.flight, if from > 0.0 { from } else { 0.0 }, to);
-            self.meetings.boxes[ball] = Some(around.grown(self.radius(ball)));
-        }
-        self.meetings.boxes[ball]
+    }
+
+    /// The box around a ball on its way through this tick.
+    fn way_in_tick(&self, ball: usize) -> Bounds {
+        let (dt, tick) = (self.scene.tick_seconds, self.state.tick);
+        let subject = &self.state.balls[ball];
+        let from = Instant::start_of(tick).since(subject.flight.start, dt);
+        let to = Instant::start_of(tick + 1).since(subject.flight.start, dt);
+        let around = Bounds::of_flight(&subject.flight, if from > 0.0 { from } else { 0.0 }, to);
+        around.grown(self.radius(ball))
     }
 
     /// When two balls meet: ever, or in this tick in models that look no farther.

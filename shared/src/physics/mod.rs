@@ -21,6 +21,7 @@ pub mod state_form;
 #[cfg(test)]
 mod tests;
 pub mod two_body;
+mod ways;
 mod world;
 
 pub use constants::PHYSICS_VERSION;
