@@ -16,6 +16,8 @@ pub(crate) struct ByHand {
     tick: u64,
     /// What is met next, and when: seconds since the flight's start.
     next: (f64, usize),
+    /// The tick in which that is.
+    busy: u64,
 }
 
 impl ByHand {
@@ -29,8 +31,8 @@ impl ByHand {
         };
         let shapes = scene.colliders.iter().map(|collider| (collider.shape, collider.material)).collect();
         let (radius, mass) = (scene.radius(ball.kind), scene.mass(ball.kind));
-        let mut world = Self { flight, shapes, radius, mass, dt: scene.tick_seconds, tick: 0, next: (0.0, 0) };
-        world.next = world.first_impact();
+        let mut world = Self { flight, shapes, radius, mass, dt: scene.tick_seconds, tick: 0, next: (0.0, 0), busy: 0 };
+        world.look_ahead();
         world
     }
 
@@ -38,8 +40,7 @@ impl ByHand {
     #[inline]
     pub(crate) fn step(&mut self) -> u64 {
         let mut impacts = 0;
-        let end = Instant::start_of(self.tick + 1);
-        while self.next.0 < end.since(self.flight.start, self.dt) {
+        while self.tick >= self.busy {
             self.bounce();
             impacts += 1;
         }
@@ -57,7 +58,18 @@ impl ByHand {
         let elapsed = Instant::start_of(self.tick).since(self.flight.start, self.dt);
         let start = Instant { tick: self.tick, offset: time - elapsed };
         self.flight = Flight { start, position, velocity: after.velocity, ..self.flight };
+        self.look_ahead();
+    }
+
+    /// Solves the flight, once.
+    fn look_ahead(&mut self) {
         self.next = self.first_impact();
+        let elapsed = Instant::start_of(self.tick).since(self.flight.start, self.dt);
+        // As the engine does it: the end of a tick decides, and the division is a first guess.
+        self.busy = self.tick + (((self.next.0 - elapsed) / self.dt) as u64).saturating_sub(1);
+        while Instant::start_of(self.busy + 1).since(self.flight.start, self.dt) <= self.next.0 {
+            self.busy += 1;
+        }
     }
 
     fn first_impact(&self) -> (f64, usize) {

@@ -6,11 +6,11 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::PLASTIC_AFTER;
-use super::contact::{Body, Response, Surface, respond, respond_pair, settle};
+use super::contact::{Body, Response, Settled, Surface, respond, respond_pair, settle};
 use super::flipper::FlipperRest;
 use super::motion::{Next, Span};
 use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact};
-use super::scene::{Presence, Role};
+use super::scene::{Collider, Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
 use crate::math::tangent;
@@ -165,15 +165,15 @@ impl World {
                 self.start_flight(ball, offset, position, velocity, None, None);
             }
             Next::Meets { collider: index, .. } => {
-                let collider = self.scene.colliders[usize::from(index)];
-                match collider.role {
+                let Collider { role, element, .. } = self.scene.colliders[usize::from(index)];
+                match role {
                     Role::Sensor => {
                         self.state.balls[ball].past = Some((t, index));
                         self.next[ball] = None;
-                        self.emit(ball, offset, position, velocity, EventKind::Passed { element: collider.element });
+                        self.emit(ball, offset, position, velocity, EventKind::Passed { element });
                     }
                     Role::Hole { to } => {
-                        self.emit(ball, offset, position, velocity, EventKind::Passed { element: collider.element });
+                        self.emit(ball, offset, position, velocity, EventKind::Passed { element });
                         self.state.balls[ball].floor = to;
                         self.start_flight(ball, offset, position, velocity, None, None);
                         // The other floor may have the same line as its own way back: it is passed already.
@@ -195,14 +195,12 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        let scene = Arc::clone(&self.scene);
-        let collider = &scene.colliders[usize::from(index)];
-        let element = collider.element;
-        let normal = collider.shape.normal_at(position);
+        let Collider { ref shape, role, element, material, .. } = self.scene.colliders[usize::from(index)];
+        let (normal, rest_speed) = (shape.normal_at(position), self.scene.rest_speed);
         let speed = -velocity.dot(normal);
         let mut kick = 0.0;
         let mut kind = EventKind::Touched { element, speed };
-        match collider.role {
+        match role {
             Role::Kicker { speed: added, threshold } if speed >= threshold => {
                 kick = added;
                 kind = EventKind::Kicked { element, speed };
@@ -211,12 +209,12 @@ impl World {
             _ => {}
         }
         self.refresh_spin(ball, position, velocity);
-        let surface = Surface { normal, velocity: DVec2::ZERO, material: collider.material, inverse_mass: 0.0, kick };
+        let surface = Surface { normal, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick };
         let (radius, mass) = (self.radius(ball), self.mass(ball));
         let after = respond(velocity, self.state.balls[ball].spin, radius, mass, &surface);
         self.state.balls[ball].spin = after.spin;
         // Contact at rest is no news, but whatever acts always is.
-        if speed > scene.rest_speed || !matches!(kind, EventKind::Touched { .. }) {
+        if speed > rest_speed || !matches!(kind, EventKind::Touched { .. }) {
             self.emit(ball, offset, position, after.velocity, kind);
         }
         let before = match self.state.balls[ball].support {
@@ -224,7 +222,7 @@ impl World {
             _ => None,
         };
         self.start_flight(ball, offset, position, after.velocity, Some(index), before);
-        if let (Role::Target { index: target, .. }, EventKind::Felled { .. }) = (collider.role, kind) {
+        if let (Role::Target { index: target, .. }, EventKind::Felled { .. }) = (role, kind) {
             self.state.targets[usize::from(target)] = TargetState::Down;
             self.target_fell(target, offset);
         }
@@ -440,7 +438,11 @@ impl World {
         before: Option<u16>,
     ) {
         let spin = self.state.balls[ball].spin;
-        let settled = settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before);
+        let settled = if self.scene.needs.contact {
+            settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before)
+        } else {
+            Settled { velocity, acceleration: DVec2::ZERO, spin, support: Support::None }
+        };
         let start = Instant { tick: self.state.tick, offset };
         let subject = &mut self.state.balls[ball];
         subject.flight = Flight { start, position, velocity: settled.velocity, acceleration: settled.acceleration };

@@ -168,6 +168,8 @@ pub struct Scene {
     pub needs: Needs,
     /// The broad phase, where it is needed: of [`Self::built`].
     pub grid: Option<Grid>,
+    /// A ball whose centre is beyond these has escaped: of [`Self::built`].
+    pub edge: Bounds,
 }
 
 impl Scene {
@@ -175,6 +177,7 @@ impl Scene {
     #[must_use]
     pub fn built(mut self) -> Self {
         let largest = self.largest_radius();
+        self.edge = self.bounds.grown(largest);
         for collider in &mut self.colliders {
             collider.bounds = collider.shape.bounds(largest);
         }
@@ -208,6 +211,6 @@ impl Scene {
 
     /// Whether a ball's centre is within the bounds, or beside them by the largest ball's radius at the most.
     pub fn is_inside(&self, position: DVec2) -> bool {
-        self.bounds.grown(self.largest_radius()).contains(position)
+        self.edge.contains(position)
     }
 }

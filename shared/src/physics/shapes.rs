@@ -191,7 +191,15 @@ impl Bounds {
 
     /// Whether the point lies in it.
     pub fn contains(&self, point: DVec2) -> bool {
-        self.meets(&Self { low: point, high: point })
+        self.holds(&Self { low: point, high: point })
+    }
+
+    /// Whether the other box lies in it. One with NaN in it does not.
+    pub fn holds(&self, other: &Self) -> bool {
+        self.low.x <= other.low.x
+            && other.high.x <= self.high.x
+            && self.low.y <= other.low.y
+            && other.high.y <= self.high.y
     }
 
     /// The box around a flight from `from` to `to` seconds after its start.

@@ -101,6 +101,8 @@ pub struct World {
     pub(super) meetings: Meetings,
     scratch: Scratch,
     /// Before this tick nothing happens, unless somebody does something. Can be recomputed.
+    busy_from: u64,
+    /// The same, or 0 while there is something to tell of the last tick: before it a step only counts.
     quiet_until: u64,
 }
 
@@ -118,6 +120,7 @@ impl World {
             most_impacts: (per_tick as u32).max(MOST_IMPACTS_PER_TICK),
             meetings: Meetings::with_capacity(MOST_BALLS),
             scratch: Scratch::new(scene.colliders.len()),
+            busy_from: 0,
             quiet_until: 0,
             state: WorldState::new(&scene),
             scene,
@@ -132,22 +135,25 @@ impl World {
     /// Advances the world by one tick and returns what happened in it.
     #[inline]
     pub fn step(&mut self) -> &[Event] {
-        // A length that was just written is read back slowly together with its pointer: a quiet tick writes none.
-        if !self.events.is_empty() {
-            self.events.clear();
-        }
         // Flights were solved when they began: until the next event, time just passes.
         if self.state.tick < self.quiet_until {
             self.state.tick += 1;
-        } else {
-            self.step_busy();
+            return &[];
         }
+        self.step_busy();
         &self.events
     }
 
-    /// A tick in which something may happen.
+    /// A tick in which something may happen, or the one after.
     #[inline(never)]
     fn step_busy(&mut self) {
+        // 0. What happened in the last tick is told.
+        self.events.clear();
+        if self.state.tick < self.busy_from {
+            self.state.tick += 1;
+            self.quiet_until = self.busy_from;
+            return;
+        }
         let needs = self.scene.needs;
         self.impacts.clear();
         self.impacts.resize(self.state.balls.len(), 0);
@@ -170,7 +176,13 @@ impl World {
             self.raise_targets();
         }
         self.take_out_escaped();
-        self.quiet_until = self.next_busy_tick();
+        self.busy_from = self.next_busy_tick();
+        self.quiet_until = if self.events.is_empty() { self.busy_from } else { 0 };
+    }
+
+    /// Somebody did something: the next tick may be a busy one.
+    fn wake(&mut self) {
+        (self.quiet_until, self.busy_from) = (0, 0);
     }
 
     /// What happened in the last step.
@@ -206,7 +218,7 @@ impl World {
         self.state.reserve_balls();
         self.meetings.forget(self.state.balls.len());
         self.events.clear();
-        self.quiet_until = 0;
+        self.wake();
         Ok(())
     }
 
@@ -231,7 +243,7 @@ impl World {
         self.state.balls.push(Ball { id, kind, floor: 0, flight, spin: 0.0, support: Support::None, past: None });
         self.next.push(None);
         self.meetings.forget(self.state.balls.len());
-        self.quiet_until = 0;
+        self.wake();
         Some(id)
     }
 
@@ -240,7 +252,7 @@ impl World {
         self.state.balls.clear();
         self.next.clear();
         self.meetings.forget(0);
-        self.quiet_until = 0;
+        self.wake();
     }
 
     /// Takes one ball out of play.
@@ -262,7 +274,7 @@ impl World {
 
     /// Presses or releases the button of all flippers of one hand.
     pub fn press(&mut self, right: bool, pressed: bool) {
-        self.quiet_until = 0;
+        self.wake();
         for (spec, flipper) in self.scene.flippers.iter().zip(&mut self.state.flippers) {
             if spec.right == right && flipper.pressed != pressed {
                 flipper.pressed = pressed;
@@ -273,7 +285,7 @@ impl World {
 
     /// Holds every plunger at that share of its stroke, or lets go of it. A share beyond 0 to 1 is cut to it.
     pub fn pull(&mut self, hand: Option<f64>) {
-        self.quiet_until = 0;
+        self.wake();
         for plunger in &mut self.state.plungers {
             plunger.hand = hand.map(|share| if share > 0.0 { share.min(1.0) } else { 0.0 });
         }
@@ -284,7 +296,7 @@ impl World {
         let target = &mut self.state.targets[usize::from(target)];
         if *target == TargetState::Down {
             *target = TargetState::Rising;
-            self.quiet_until = 0;
+            self.wake();
         }
     }
 
@@ -310,7 +322,7 @@ impl World {
             let (from, to) = (now.since(ball.flight.start, dt), next.time());
             // A ball that leaves the table has to be noticed in that very tick.
             let path = Bounds::of_flight(&ball.flight, from, if to < f64::MAX { to } else { from });
-            if !(self.scene.is_inside(path.low) && self.scene.is_inside(path.high)) {
+            if !self.scene.edge.holds(&path) {
                 return 0;
             }
             // The division may be off by a rounding, but the end of a tick is what decides. A cast saturates.

@@ -34,6 +34,7 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
         targets: 0,
         needs: Needs::default(),
         grid: None,
+        edge: bare.bounds,
     };
     let mut builder = Builder { context, scene, floor: 0 };
     for (index, element) in (0..).zip(&file.elements) {

@@ -2,6 +2,7 @@
 //! times of impact.
 
 use super::super::ball::{Ball, Flight, Support};
+use super::super::broad_phase::Grid;
 use super::super::constants::MOST_PIECES;
 use super::super::impact::{Search, TimeOfImpact, leaves_segment};
 use super::super::scene::{Collider, Scene};
@@ -48,8 +49,26 @@ pub(super) enum Found {
     EndOfSupport(f64),
 }
 
+/// The earliest event so far. Ties go to the collider of the lowest index.
+struct Earliest {
+    time: f64,
+    index: u32,
+    found: Found,
+}
+
+impl Earliest {
+    /// Takes an impact that is earlier; whether it was.
+    fn takes(&mut self, time: f64, index: u16) -> bool {
+        let is_earlier = time < self.time || (time == self.time && u32::from(index) < self.index);
+        if is_earlier {
+            *self = Self { time, index: u32::from(index), found: Found::Collider(time, index) };
+        }
+        is_earlier
+    }
+}
+
 /// The first event within `span` of `path`, or beyond it, whose colliders' times `time_of` tells. What happened up to `past`
-/// is past, and at `support_ends` that of the ball does. Ties go to the collider of the lowest index.
+/// is past, and at `support_ends` that of the ball does.
 pub(super) fn first_on_path(
     query: &mut Query<'_>,
     path: &Flight,
@@ -59,49 +78,86 @@ pub(super) fn first_on_path(
     time_of: impl Fn(u16, &Collider, &Search) -> TimeOfImpact,
 ) -> Found {
     let (scene, state, ball) = (query.scene, query.state, query.ball);
-    let scratch = &mut *query.scratch;
-    scratch.begin();
     let (after, past_index) = past.unwrap_or((f64::NEG_INFINITY, 0));
-    let mut found = Found::ClearUntil(f64::INFINITY);
-    let (mut limit, mut limit_index) = (f64::INFINITY, u32::MAX);
+    let mut earliest = Earliest { time: f64::INFINITY, index: u32::MAX, found: Found::ClearUntil(f64::INFINITY) };
     if let Some(t) = support_ends {
-        let t = if t > span.from { t } else { span.from };
-        (limit, found) = (t, Found::EndOfSupport(t));
+        let time = if t > span.from { t } else { span.from };
+        earliest = Earliest { time, found: Found::EndOfSupport(time), ..earliest };
     }
+    // When a shape is met, if that is of interest.
+    let look_at = |index: u16, collider: &Collider, earliest: &Earliest| {
+        if collider.floor != ball.floor || !state.has(collider) || is_part_of_support(scene, ball.support, index) {
+            return None;
+        }
+        let search = Search { before: earliest.time.next_up(), after, strictly: index <= past_index };
+        time_of(index, collider, &search).time()
+    };
+    match &scene.grid {
+        Some(grid) => along_cells(query.scratch, scene, grid, path, span, earliest, look_at),
+        None => among_all(scene, path, span, earliest, look_at),
+    }
+}
+
+/// Few shapes: one after the other, all the way.
+fn among_all(
+    scene: &Scene,
+    path: &Flight,
+    span: Span,
+    mut earliest: Earliest,
+    look_at: impl Fn(u16, &Collider, &Earliest) -> Option<f64>,
+) -> Found {
+    // The box around the way up to the earliest event, once there is an end to it.
+    let way_until = |end: f64| Bounds::of_flight(path, span.from, if end > span.from { end } else { span.from });
+    let mut around = (span.to < f64::INFINITY).then(|| way_until(span.to));
+    for (index, collider) in (0..).zip(&scene.colliders) {
+        if around.is_none_or(|around| around.meets(&collider.bounds))
+            && let Some(time) = look_at(index, collider, &earliest)
+            && earliest.takes(time, index)
+            && time < span.to
+        {
+            around = Some(way_until(time));
+        }
+    }
+    if earliest.time <= span.to && earliest.time < f64::INFINITY {
+        return earliest.found;
+    }
+    // It meets nothing: it may leave the scene, and is asked for again on the way.
+    let to = span.from + piece(path, span.from, scene.bounds.extent());
+    Found::ClearUntil(if to < span.to { to } else { span.to })
+}
+
+/// Many shapes: those in the cells along the way, piece by piece.
+fn along_cells(
+    scratch: &mut Scratch,
+    scene: &Scene,
+    grid: &Grid,
+    path: &Flight,
+    span: Span,
+    mut earliest: Earliest,
+    look_at: impl Fn(u16, &Collider, &Earliest) -> Option<f64>,
+) -> Found {
+    scratch.begin();
     let mut from = span.from;
     for _ in 0..MOST_PIECES {
-        let to = from + piece(path, scene, from);
+        let to = from + piece(path, from, grid.cell());
         let to = if to < span.to { to } else { span.to };
-        let mut end = if to < limit { to } else { limit };
+        let mut end = if to < earliest.time { to } else { earliest.time };
         let mut around = Bounds::of_flight(path, from, end);
         let reached = around;
-        let mut look_at = |index: u16| {
+        grid.visit(&reached, |index| {
             let collider = &scene.colliders[usize::from(index)];
-            if !around.meets(&collider.bounds)
-                || collider.floor != ball.floor
-                || !scratch.looks_at(index)
-                || !state.has(collider)
-                || is_part_of_support(scene, ball.support, index)
+            if around.meets(&collider.bounds)
+                && scratch.looks_at(index)
+                && let Some(time) = look_at(index, collider, &earliest)
+                && earliest.takes(time, index)
+                && time < end
             {
-                return;
+                end = if time > from { time } else { from };
+                around = Bounds::of_flight(path, from, end);
             }
-            let search = Search { before: limit.next_up(), after, strictly: index <= past_index };
-            if let Some(t) = time_of(index, collider, &search).time()
-                && (t < limit || (t == limit && u32::from(index) < limit_index))
-            {
-                (limit, limit_index, found) = (t, u32::from(index), Found::Collider(t, index));
-                if t < end {
-                    end = if t > from { t } else { from };
-                    around = Bounds::of_flight(path, from, end);
-                }
-            }
-        };
-        match &scene.grid {
-            Some(grid) => grid.visit(&reached, &mut look_at),
-            None => (0..scene.colliders.len() as u16).for_each(&mut look_at),
-        }
-        if limit <= to {
-            return found;
+        });
+        if earliest.time <= to {
+            return earliest.found;
         }
         if to >= span.to || !scene.bounds.meets(&reached) {
             return Found::ClearUntil(to);
@@ -118,10 +174,8 @@ pub(super) fn support_ends(scene: &Scene, ball: &Ball) -> Option<f64> {
     leaves_segment(&ball.flight, segment, &Search::whole()).time()
 }
 
-/// Seconds from `from` on in which a path goes about as far as a cell of the grid is wide; without a grid, about as far as
-/// the scene is.
-fn piece(path: &Flight, scene: &Scene, from: f64) -> f64 {
-    let length = scene.grid.as_ref().map_or_else(|| scene.bounds.extent(), super::super::broad_phase::Grid::cell);
+/// Seconds from `from` on in which a path goes about `length` metres.
+fn piece(path: &Flight, from: f64, length: f64) -> f64 {
     let (speed, pull) = (path.velocity_at(from).length(), path.acceleration.length());
     2.0 * length / (speed + (speed * speed + 2.0 * pull * length).sqrt())
 }
