@@ -4,6 +4,7 @@ use glam::DVec2;
 
 use super::{Search, TimeOfImpact, ball_arc, touch_gap};
 use crate::physics::ball::Flight;
+use crate::physics::constants::NEAR_MARGIN;
 use crate::physics::shapes::{Arc, Side};
 
 /// The first impact of two balls within `search`. Both flights must begin at the same moment; times are seconds since
@@ -15,10 +16,24 @@ pub fn ball_ball(one: &Flight, one_radius: f64, other: &Flight, other_radius: f6
         velocity: one.velocity - other.velocity,
         acceleration: one.acceleration - other.acceleration,
     };
+    if misses(&seen, one_radius + other_radius) {
+        return TimeOfImpact::Separated;
+    }
     let disc = Arc { center: DVec2::ZERO, radius: other_radius, side: Side::Outside, span: None };
     // What they may be off each other by rounding is that of their coordinates, not of their distance.
     let (a, b) = (touch_gap(one, one_radius), touch_gap(other, other_radius));
     ball_arc::first_impact(&seen, one_radius, &disc, if a > b { a } else { b }, search)
+}
+
+/// Whether a straight way clearly parts from (0, 0) or passes it by more than `reach`: most pairs of balls do.
+fn misses(seen: &Flight, reach: f64) -> bool {
+    let (offset, velocity) = (seen.position, seen.velocity);
+    let (distance, speed) = (offset.length_squared(), velocity.length_squared());
+    let closest = offset.perp_dot(velocity);
+    let (clear, square) = (1.0 + NEAR_MARGIN, reach * reach);
+    seen.acceleration == DVec2::ZERO
+        && distance > square * clear * clear
+        && (offset.dot(velocity) >= 0.0 || closest * closest > square * speed * clear * clear)
 }
 
 #[cfg(test)]
