@@ -4,8 +4,12 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 use std::sync::Arc;
+use std::time::Instant as Clock;
 
+use shared::extremes::Report;
+use shared::extremes::shots::{FASTEST, Shots, shots};
 use shared::game::replay::{Recorder, Replay};
+use shared::physics::motion::Motion;
 use starball_server::simulate::{self, Player, Simulation};
 use starball_server::{load_table, load_text};
 
@@ -43,6 +47,49 @@ pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
     }
     if arguments.trace.as_deref() == Some(Path::new("-")) { Ok(()) } else { print(&told.to_string()) }
 }
+
+/// `extremes`.
+pub(crate) fn extremes(shots: u64) -> Result<(), String> {
+    let report = Report::of_all(|check| eprintln!("checked: {check}"));
+    print(&report.to_string())?;
+    let lost = if shots > 0 { random_shots(shots)? } else { 0 };
+    match (report.is_as_expected(), lost) {
+        (true, 0) => Ok(()),
+        (false, _) => Err("an extreme is worse than stated: see the table".to_owned()),
+        (true, lost) => Err(format!("{lost} of {shots} shots were lost")),
+    }
+}
+
+/// Plays random shots on all cores, and tells what became of them; how many were lost.
+fn random_shots(count: u64) -> Result<u64, String> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from) as u64;
+    let begun = Clock::now();
+    let play = |core: u64| shots(count * core / cores..count * (core + 1) / cores, SHOTS_SEED, FASTEST, Motion::Exact);
+    let told = std::thread::scope(|scope| {
+        let threads: Vec<_> = (0..cores).map(|core| scope.spawn(move || play(core))).collect();
+        let join = |thread: std::thread::ScopedJoinHandle<'_, Shots>| thread.join().map_err(|_| "a thread failed");
+        threads.into_iter().map(join).collect::<Result<Vec<_>, _>>()
+    })?;
+    let told = told.into_iter().reduce(Shots::joined).unwrap_or_default();
+    print(&format!(
+        "{} random shots up to {FASTEST} m/s on Classic, flippers moving: {} impacts, {} drained, {} escaped, {} through something, \
+         {} not finite; deepest overlap {:.2e} m (shot {}, tick {}); {:.0} s",
+        told.shots,
+        told.impacts,
+        told.drained,
+        told.escaped,
+        told.passed_through,
+        told.not_finite,
+        told.deepest,
+        told.worst.0,
+        told.worst.1,
+        begun.elapsed().as_secs_f64(),
+    ))?;
+    Ok(told.lost())
+}
+
+/// What the random shots follow from.
+const SHOTS_SEED: u64 = 2026;
 
 fn read_replay(path: &Path) -> Result<Replay, String> {
     let text = load_text(path, shared::game::replay::MOST_TEXT)

@@ -29,6 +29,9 @@ const LISTEN_HINT: &str = "127.0.0.1:7777 is for this machine, 0.0.0.0:7777 for 
 enum Command {
     /// Plays a table without network, as fast as possible, and prints the outcome as one line of JSON.
     Simulate(Simulate),
+    /// Checks the physics at its extremes with each motion model and prints what passes and what the limits are, as a table in
+    /// Markdown. The exit status tells whether all is as stated.
+    Extremes(Extremes),
 }
 
 #[derive(Debug, Args)]
@@ -48,6 +51,13 @@ struct Serve {
     /// Most clients at once.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     most_connections: u32,
+}
+
+#[derive(Debug, Args)]
+struct Extremes {
+    /// Plays so many random shots on Classic besides, exactly and with flippers moving: none may be lost.
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=1_000_000_000))]
+    shots: u64,
 }
 
 #[derive(Debug, Args)]
@@ -94,6 +104,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
         Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
+        Some(Command::Extremes(arguments)) => commands::extremes(arguments.shots),
         None => serve(&arguments.serve),
     };
     match outcome {

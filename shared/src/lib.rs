@@ -6,6 +6,7 @@
 
 #![warn(missing_docs)]
 
+pub mod extremes;
 pub mod game;
 pub mod golden;
 pub mod math;

@@ -219,6 +219,9 @@ pub fn settle(
         pressed_by_any = true;
         let along = tangent(touch.normal);
         let speed = velocity.dot(along);
+        // A ball that slips grips the surface and rolls: what its rim gains, its centre loses.
+        let slip = if touch.friction > 0.0 { speed + spin * radius } else { 0.0 };
+        let speed = speed - SLIP_SHARE * slip;
         let slid = along * speed;
         let acceleration = touch.acceleration(scene.gravity, slid);
         if other.is_none_or(|other| touch.continues(&other) || clears(&other, slid, acceleration, still_square)) {

@@ -241,6 +241,7 @@ impl World {
             };
             if falls {
                 let (position, velocity) = self.ball_at(ball, offset);
+                self.refresh_spin(ball, position, velocity);
                 self.start_flight(ball, offset, position, velocity, None, None);
             }
         }
@@ -303,8 +304,9 @@ impl World {
         let scene = Arc::clone(&self.scene);
         let mut places = [one, other].map(|ball| self.ball_at(ball, offset).0);
         let velocities = [one, other].map(|ball| self.ball_at(ball, offset).1);
-        for ball in [one, other] {
-            self.impacts[ball] += 1;
+        let stalled = [one, other].map(|ball| self.state.balls[ball].support == Support::Stalled);
+        for (ball, stalled) in [one, other].into_iter().zip(stalled) {
+            self.impacts[ball] += u32::from(!stalled);
         }
         // A ball that is worn out can still be pushed by one that is not; so each push wears out one of them.
         if [one, other].into_iter().all(|ball| self.impacts[ball] > self.most_impacts) {
@@ -331,7 +333,8 @@ impl World {
             velocity,
             spin: self.state.balls[ball].spin,
             radius: self.radius(ball),
-            mass: self.mass(ball),
+            // One that waits for the next tick does not give way.
+            mass: if self.state.balls[ball].support == Support::Stalled { f64::INFINITY } else { self.mass(ball) },
         };
         let speed = -(velocities[0] - velocities[1]).dot(normal);
         let pulls = [one, other].map(|ball| self.state.balls[ball].flight.acceleration);
@@ -346,6 +349,9 @@ impl World {
             if speed > scene.rest_speed {
                 let kind = EventKind::Met { other: ids[1 - place], speed };
                 self.emit(ball, offset, places[place], velocity, kind);
+            }
+            if stalled[place] {
+                continue;
             }
             self.state.balls[ball].spin = spin;
             let before = match self.state.balls[ball].support {

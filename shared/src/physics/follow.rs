@@ -57,6 +57,7 @@ impl World {
         let square = piece.velocity.length_squared() + 2.0 * share * fallen;
         let estimate = velocity.dot(along);
         let speed = if square > 0.0 { square.sqrt().copysign(estimate) } else { estimate };
+        self.refresh_spin(ball, place, along * speed);
         self.start_flight(ball, offset, place, along * speed, Some(index), None);
     }
 

@@ -19,6 +19,9 @@ pub struct Segment {
     pub normal: DVec2,
     /// Metres.
     pub length: f64,
+    /// Halfway between the ends: where distances are measured from, so that neither end is preferred and the same segment
+    /// from its other end has the same bits.
+    pub middle: DVec2,
     /// Stops only balls that come from where `normal` does not point; others pass.
     pub one_way: bool,
 }
@@ -28,7 +31,12 @@ impl Segment {
     pub fn new(a: DVec2, b: DVec2) -> Self {
         let length = (b - a).length();
         let along = (b - a) / length;
-        Self { a, b, along, normal: -tangent(along), length, one_way: false }
+        Self { a, b, along, normal: -tangent(along), length, middle: (a + b) * 0.5, one_way: false }
+    }
+
+    /// Distance of a point from the line, m: positive on the side where `normal` points.
+    pub fn height(&self, point: DVec2) -> f64 {
+        self.normal.dot(point - self.middle)
     }
 
     /// Whether the surface goes on smoothly from one of the segment's ends into `arc`: its end's point, or a circle
@@ -110,7 +118,7 @@ impl Shape {
     pub fn normal_at(&self, position: DVec2) -> DVec2 {
         match self {
             Self::Segment(segment) => {
-                if segment.one_way || segment.normal.dot(position - segment.a) < 0.0 {
+                if segment.one_way || segment.height(position) < 0.0 {
                     -segment.normal
                 } else {
                     segment.normal

@@ -176,7 +176,7 @@ impl WorldState {
         let number = StateError::Number { what: "ball", index };
         let start = ball.flight.start;
         let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
-        let past_is_a_number = ball.past.is_none_or(|(t, _)| !t.is_nan());
+        let past_is_a_number = ball.past.is_none_or(|(t, _)| t.is_finite());
         // A ball that crosses the table many times within a tick is no ball: to search its path would take for ever.
         let (dt, fastest) = (scene.tick_seconds, MOST_HEIGHTS_PER_SECOND * scene.bounds.extent());
         let is_slow = ball.flight.velocity.abs().max_element() <= fastest

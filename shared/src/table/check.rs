@@ -197,7 +197,9 @@ impl<'a> Context<'a> {
         point: Point,
     ) -> Result<DVec2, TableError> {
         if self.is_scene {
-            return if DVec2::new(point.0, point.1).abs().max_element() <= MOST_COORDINATE {
+            // Each for itself: the larger one of a number and NaN is the number.
+            let fits = |value: f64| value.abs() <= MOST_COORDINATE;
+            return if fits(point.0) && fits(point.1) {
                 Ok(vector(point))
             } else {
                 let problem = format!(

@@ -363,3 +363,15 @@ fn a_ball_is_not_served_within_something() {
     );
     assert!(error.problem.contains("bumper 1") && error.problem.contains("would be right"), "{error}");
 }
+
+/// Broke: of a coordinate and NaN the coordinate is the larger, so that a scene's wall went to nowhere, or a ball began there.
+#[test]
+fn a_point_with_one_coordinate_that_is_no_number_is_refused() {
+    for (place, wall) in [("(NaN, 0.5)", "(0.0, 0.0)"), ("(0.5, NaN)", "(0.0, 0.0)"), ("(0.5, 0.5)", "(NaN, 0.0)")] {
+        let text = format!(
+            "Scene(gravity: (0.0, 0.0), balls: [(position: {place})], elements: [Wall(points: [{wall}, (0.3, 0.2)])])"
+        );
+        let error = Table::parse("scene.ron", &text).expect_err("it has no place");
+        assert!(error.problem.contains("no place"), "{error}");
+    }
+}

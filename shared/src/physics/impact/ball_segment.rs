@@ -25,7 +25,7 @@ pub(super) fn first_impact(flight: &Flight, radius: f64, segment: &Segment, sear
 fn from_side(flight: &Flight, radius: f64, segment: &Segment, side: f64, search: &Search) -> TimeOfImpact {
     let normal = segment.normal * side;
     let offset = flight.position - segment.a;
-    let gap = normal.dot(offset) - radius;
+    let gap = side * segment.height(flight.position) - radius;
     let rate = normal.dot(flight.velocity);
     let half_pull = 0.5 * normal.dot(flight.acceleration);
     let touch = touch_gap(flight, radius);
@@ -77,7 +77,7 @@ fn accept(flight: &Flight, segment: &Segment, search: &Search, t: f64) -> TimeOf
 
 /// When the ball's centre passes the segment.
 pub(super) fn first_pass(flight: &Flight, segment: &Segment, search: &Search) -> TimeOfImpact {
-    let gap = segment.normal.dot(flight.position - segment.a);
+    let gap = segment.height(flight.position);
     let rate = segment.normal.dot(flight.velocity);
     let half_pull = 0.5 * segment.normal.dot(flight.acceleration);
     for &t in quadratic([gap, rate, half_pull]).as_slice() {
@@ -93,12 +93,13 @@ pub(super) fn first_pass(flight: &Flight, segment: &Segment, search: &Search) ->
 
 /// When a ball that lies on the segment reaches one of its ends, moving outwards.
 pub(crate) fn leaves_segment(flight: &Flight, segment: &Segment, search: &Search) -> TimeOfImpact {
-    let start = segment.along.dot(flight.position - segment.a);
+    let start = segment.along.dot(flight.position - segment.middle);
+    let half = 0.5 * segment.length;
     let rate = segment.along.dot(flight.velocity);
     let half_pull = 0.5 * segment.along.dot(flight.acceleration);
     let slack = TOUCH * (flight.position.abs().max_element() + segment.length);
     let mut first = f64::INFINITY;
-    for (gap, sign) in [(start, 1.0), (segment.length - start, -1.0)] {
+    for (gap, sign) in [(half + start, 1.0), (half - start, -1.0)] {
         let (rate, half_pull) = (sign * rate, sign * half_pull);
         if gap <= slack && (rate < 0.0 || (rate == 0.0 && half_pull < 0.0)) {
             first = 0.0;

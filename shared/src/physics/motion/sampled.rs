@@ -108,12 +108,12 @@ fn overlap_at(shape: &Shape, radius: f64, before: DVec2, position: DVec2, veloci
             if along < 0.0 || along > segment.length {
                 return None;
             }
-            let was = segment.normal.dot(before - segment.a);
+            let was = segment.height(before);
             if segment.one_way && was > 0.0 {
                 return None;
             }
             let normal = if was < 0.0 || segment.one_way { -segment.normal } else { segment.normal };
-            let height = normal.dot(offset);
+            let height = normal.dot(position - segment.middle);
             // Farther on the other side it no longer overlaps: it has passed.
             if height <= -radius {
                 return None;

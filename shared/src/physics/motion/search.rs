@@ -180,16 +180,17 @@ fn piece(path: &Flight, from: f64, length: f64) -> f64 {
     2.0 * length / (speed + (speed * speed + 2.0 * pull * length).sqrt())
 }
 
-/// Whether a collider is what the ball lies on, or the smooth end of it.
+/// Whether a collider is what the ball lies on, the same surface again, or the smooth end of it.
 pub(super) fn is_part_of_support(scene: &Scene, support: Support, collider: u16) -> bool {
     let shape = |i: u16| &scene.colliders[usize::from(i)].shape;
+    let is_same = |i: u16| i == collider || shape(i) == shape(collider);
     match support {
         Support::Line(line) => {
-            line == collider
+            is_same(line)
                 || matches!((shape(line), shape(collider)), (Shape::Segment(s), Shape::Arc(a)) if s.continues_into(a))
         }
         Support::Arc(arc) => {
-            arc == collider
+            is_same(arc)
                 || match (shape(arc), shape(collider)) {
                     (Shape::Arc(arc), Shape::Arc(point)) => arc.has_point(point),
                     // From a hollow the ball is handed over to the straight part when it has passed the arc's end.
@@ -197,7 +198,7 @@ pub(super) fn is_part_of_support(scene: &Scene, support: Support, collider: u16)
                     _ => false,
                 }
         }
-        Support::Wedge(a, b) => a == collider || b == collider,
+        Support::Wedge(a, b) => is_same(a) || is_same(b),
         Support::None | Support::Stalled | Support::Flipper(_) | Support::Plunger(_) => false,
     }
 }

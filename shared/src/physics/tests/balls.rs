@@ -159,3 +159,23 @@ fn friction_between_balls_keeps_momentum_and_ends_in_rolling() {
         assert!((turned - pushed).abs() < 1e-15, "{turned} and {pushed}");
     }
 }
+
+/// Broke: a ball that had met too much within a tick waits for the next one; another that pressed on it met it again and
+/// again, and the tick never ended.
+#[test]
+fn balls_that_lie_on_each_other_hold_up_no_tick() {
+    let places = [(0.46, 0.36), (0.52, 0.36), (0.464, 0.41), (0.524, 0.41), (0.468, 0.46), (0.528, 0.46)];
+    let balls: String = places.map(|place| format!("(position: {place:?}),")).concat();
+    let hopper = "Wall(points: [(0.4, 0.9), (0.4, 0.3), (0.5, 0.25), (0.6, 0.3), (0.6, 0.9)], restitution: 0.5),";
+    let scene = world(Motion::Exact, -0.793, &balls, hopper).scene;
+    let mut world = World::new(Arc::new(Scene { ball_material: Material::bouncing(0.5), ..(*scene).clone() }));
+    for _ in 0..1000 {
+        // A meeting is told of both balls.
+        assert!(world.step().len() <= 6 * 201);
+    }
+    for one in 0..6 {
+        for other in 0..one {
+            assert!((ball(&world, one).0 - ball(&world, other).0).length() > 0.027 * (1.0 - 1e-9));
+        }
+    }
+}

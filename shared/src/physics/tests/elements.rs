@@ -1,14 +1,16 @@
 //! Gates, bumpers, targets and sensors.
 
 use core::f64::consts::PI;
+use std::sync::Arc;
 
 use glam::DVec2;
 
 use super::{ball, launch, run, support, world_with};
+use crate::extremes::transform::Similarity;
 use crate::math::direction;
 use crate::physics::TargetState;
 use crate::physics::ball::Support;
-use crate::physics::world::EventKind;
+use crate::physics::world::{EventKind, World};
 
 /// No gravity: a ball goes straight on.
 const FREE: DVec2 = DVec2::ZERO;
@@ -177,4 +179,37 @@ fn a_ball_on_a_curve_or_a_slope_passes_each_sensor_once() {
     for element in 1..=100 {
         assert_eq!(passes(&events, element), 1, "sensor {element} of the slope");
     }
+}
+
+/// Broke: distances were measured from a segment's first end, so that a table and its mirror image, in which a gate's ends
+/// change places, were two different games after the first touch of the gate.
+#[test]
+fn a_gate_seen_in_a_mirror_has_the_same_bits() {
+    let gate = "Gate(name: \"gate\", material: \"rubber\", from: (0.3321, 0.5), to: (0.4937, 0.71)),";
+    let world = world_with(FREE, gate);
+    let mirror = Similarity::MIRROR;
+    let mirrored = World::new(Arc::new(mirror.scene(&world.scene)));
+    for k in 0..50 {
+        let (mut world, mut mirrored) = (world.clone(), mirrored.clone());
+        let (place, speed) = (DVec2::new(0.43 + 0.0007 * f64::from(k), 0.3), DVec2::new(0.013, 0.77));
+        launch(&mut world, place, speed);
+        launch(&mut mirrored, mirror.point(place), mirror.vector(speed));
+        assert_eq!(run(&mut world, 500).len(), 1, "it meets the gate");
+        run(&mut mirrored, 500);
+        assert_eq!(mirror.flight(&world.state.balls[0].flight), mirrored.state.balls[0].flight, "thrown at {place}");
+    }
+}
+
+/// Broke: a ball that lay on one of two walls in the same place met the other one again and again.
+#[test]
+fn a_ball_that_rolls_along_two_walls_in_one_place_rolls_along_one() {
+    let wall = |name: &str| format!("Wall(name: \"{name}\", material: \"wood\", points: [(0.1, 0.43), (0.83, 0.31)]),");
+    let pull = DVec2::new(0.0, -0.793);
+    let [mut one, mut two] = [wall("a"), wall("a") + &wall("b")].map(|walls| world_with(pull, &walls));
+    for world in [&mut one, &mut two] {
+        launch(world, DVec2::new(0.2, 0.47), DVec2::ZERO);
+        run(world, 1000);
+    }
+    assert!(matches!(support(&one, 0), Support::Line(_)));
+    assert_eq!((ball(&one, 0), support(&one, 0)), (ball(&two, 0), support(&two, 0)));
 }

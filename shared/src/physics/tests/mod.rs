@@ -15,6 +15,7 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::world::{EventKind, World};
+use crate::extremes::overlap::deepest_overlap;
 use crate::table::Table;
 
 /// A world of these elements on a table of 1 m by 1 m, with gravity as given.
@@ -66,33 +67,6 @@ fn ball(world: &World, index: usize) -> (DVec2, DVec2) {
 /// Steps for so many ticks; what happened in them.
 fn run(world: &mut World, ticks: u32) -> Vec<EventKind> {
     (0..ticks).flat_map(|_| world.step().iter().map(|event| event.kind).collect::<Vec<_>>()).collect()
-}
-
-/// How deep the ball overlaps whatever is there, m; negative: how far the nearest thing is.
-fn deepest_overlap(world: &World, position: DVec2) -> f64 {
-    use super::scene::Role;
-    use super::shapes::{Shape, Side};
-    let scene = &world.scene;
-    let mut deepest = f64::NEG_INFINITY;
-    for collider in &scene.colliders {
-        let passable = matches!(collider.role, Role::Sensor | Role::Drain)
-            || matches!(collider.shape, Shape::Segment(segment) if segment.one_way);
-        if !passable && world.state.has(collider) && collider.bounds.contains(position) {
-            let distance = match &collider.shape {
-                // A whole disc is solid.
-                Shape::Arc(disc) if disc.side == Side::Outside && disc.span.is_none() => {
-                    (position - disc.center).length() - disc.radius
-                }
-                shape => shape.distance(position),
-            };
-            deepest = deepest.max(scene.radius(0) - distance);
-        }
-    }
-    for (spec, flipper) in scene.flippers.iter().zip(&world.state.flippers) {
-        let nearest = spec.nearest(spec.direction(flipper.swing), position);
-        deepest = deepest.max(scene.radius(0) - nearest.distance);
-    }
-    deepest
 }
 
 fn at_rest(flight: &Flight) -> bool {

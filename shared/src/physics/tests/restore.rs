@@ -175,6 +175,9 @@ fn a_state_that_does_not_fit_is_refused_and_changes_nothing() {
     spoil(&|state| state.balls[0].flight.start.offset = -1.0);
     spoil(&|state| state.balls[0].support = Support::Line(60_000));
     spoil(&|state| state.balls[0].support = Support::Flipper(2));
+    // Broke: nothing lies before such a moment, or everything.
+    spoil(&|state| state.balls[0].past = Some((f64::INFINITY, 0)));
+    spoil(&|state| state.balls[0].past = Some((f64::NEG_INFINITY, 0)));
     spoil(&|state| state.flippers[0].swing = f64::NAN);
     // Broke: flippers and plungers that throw a ball at such speeds.
     spoil(&|state| state.flippers[0].swing = 1e300);

@@ -172,3 +172,25 @@ fn a_thousand_ideal_bounces_keep_the_energy() {
         }
     }
 }
+
+/// Broke: a ball that came to lie on a surface began to roll at the speed that it slid with, and gained the energy of its
+/// spin: two fifths.
+#[test]
+fn a_ball_that_slides_grips_and_rolls_without_gaining_energy() {
+    for (spin, speed) in [(0.0, 0.5), (40.0, 0.5), (-80.0, 0.0), (-37.0, 0.5)] {
+        let mut world =
+            world_with(DVec2::new(0.0, -GRAVITY), &polyline("wood", &[DVec2::new(0.1, 0.3), DVec2::new(0.9, 0.3)]));
+        let place = launch(&mut world, DVec2::new(0.3, 0.3 + RADIUS), DVec2::new(speed, 0.0));
+        world.state.balls[place].spin = spin;
+        let energy = |speed: f64, spin: f64| 0.5 * speed * speed + 0.2 * (spin * RADIUS) * (spin * RADIUS);
+        run(&mut world, 100);
+        let (_, velocity) = ball(&world, 0);
+        let rolls = world.state.balls[0].spin;
+        assert!(matches!(support(&world, 0), Support::Line(_)));
+        assert!((velocity.x + rolls * RADIUS).abs() < 1e-15, "{velocity} and {rolls} rad/s are no rolling");
+        // What it turns with about the point where it touches stays.
+        let turns = |speed: f64, spin: f64| speed - 0.4 * spin * RADIUS;
+        assert!((turns(velocity.x, rolls) - turns(speed, spin)).abs() < 1e-15, "{velocity}");
+        assert!(energy(velocity.x, rolls) <= energy(speed, spin) * (1.0 + 1e-15));
+    }
+}
