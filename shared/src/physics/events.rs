@@ -1,12 +1,10 @@
 //! What happens within a tick, in order of time: impacts, sensors, ends of support, end stops.
 
-use std::sync::Arc;
-
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::PLASTIC_AFTER;
-use super::contact::{Body, Response, Settled, Surface, respond, respond_pair, settle};
+use super::contact::{Response, Settled, Surface, respond, settle};
 use super::flipper::FlipperRest;
 use super::motion::{Next, Span};
 use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact};
@@ -248,7 +246,7 @@ impl World {
     }
 
     /// Too many impacts within one tick: the ball waits for the next one.
-    fn stall(&mut self, ball: usize, offset: f64, position: DVec2) {
+    pub(super) fn stall(&mut self, ball: usize, offset: f64, position: DVec2) {
         let start = Instant { tick: self.state.tick, offset };
         let ball_state = &mut self.state.balls[ball];
         ball_state.flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: DVec2::ZERO };
@@ -297,69 +295,6 @@ impl World {
         motion.from = offset;
         self.plunger_motions[index] = Some(motion);
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Plunger(index as u16));
-    }
-
-    /// Two balls meet.
-    fn meet_balls(&mut self, one: usize, other: usize, offset: f64) {
-        let scene = Arc::clone(&self.scene);
-        let mut places = [one, other].map(|ball| self.ball_at(ball, offset).0);
-        let velocities = [one, other].map(|ball| self.ball_at(ball, offset).1);
-        let stalled = [one, other].map(|ball| self.state.balls[ball].support == Support::Stalled);
-        for (ball, stalled) in [one, other].into_iter().zip(stalled) {
-            self.impacts[ball] += u32::from(!stalled);
-        }
-        // A ball that is worn out can still be pushed by one that is not; so each push wears out one of them.
-        if [one, other].into_iter().all(|ball| self.impacts[ball] > self.most_impacts) {
-            for (ball, place) in [one, other].into_iter().zip(places) {
-                self.stall(ball, offset, place);
-            }
-            return;
-        }
-        let apart = places[0] - places[1];
-        let normal = apart.try_normalize().unwrap_or(DVec2::Y);
-        let overlap = self.radius(one) + self.radius(other) - apart.length();
-        // Models that notice an overlap only put the balls back where they touch.
-        if scene.motion.looks_now_and_then() && overlap > 0.0 {
-            places = [places[0] + normal * (0.5 * overlap), places[1] - normal * (0.5 * overlap)];
-        }
-        let mut material = scene.ball_material;
-        if self.impacts[one] > PLASTIC_AFTER || self.impacts[other] > PLASTIC_AFTER {
-            material.restitution = 0.0;
-        }
-        for (ball, (place, velocity)) in [one, other].into_iter().zip(places.into_iter().zip(velocities)) {
-            self.refresh_spin(ball, place, velocity);
-        }
-        let body = |ball: usize, velocity: DVec2| Body {
-            velocity,
-            spin: self.state.balls[ball].spin,
-            radius: self.radius(ball),
-            // One that waits for the next tick does not give way.
-            mass: if self.state.balls[ball].support == Support::Stalled { f64::INFINITY } else { self.mass(ball) },
-        };
-        let speed = -(velocities[0] - velocities[1]).dot(normal);
-        let pulls = [one, other].map(|ball| self.state.balls[ball].flight.acceleration);
-        let pull = -(pulls[0] - pulls[1]).dot(normal);
-        // One that lies on the other would meet it for ever: it hops instead, by an eighth of pull times tick squared.
-        let hop = pull * scene.tick_seconds;
-        let rests = pull > 0.0 && (speed <= scene.rest_speed || speed <= hop);
-        let hop = rests.then_some(0.5 * hop);
-        let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material, hop);
-        let ids = [one, other].map(|ball| self.state.balls[ball].id);
-        for (place, (ball, (velocity, spin))) in [one, other].into_iter().zip(after).enumerate() {
-            if speed > scene.rest_speed {
-                let kind = EventKind::Met { other: ids[1 - place], speed };
-                self.emit(ball, offset, places[place], velocity, kind);
-            }
-            if stalled[place] {
-                continue;
-            }
-            self.state.balls[ball].spin = spin;
-            let before = match self.state.balls[ball].support {
-                Support::Line(i) | Support::Arc(i) => Some(i),
-                _ => None,
-            };
-            self.start_flight(ball, offset, places[place], velocity, None, before);
-        }
     }
 
     /// The impulse between a ball and a moving surface.
@@ -482,7 +417,7 @@ impl World {
         self.impacts.remove(ball);
     }
 
-    fn emit(&mut self, ball: usize, offset: f64, position: DVec2, velocity: DVec2, kind: EventKind) {
+    pub(super) fn emit(&mut self, ball: usize, offset: f64, position: DVec2, velocity: DVec2, kind: EventKind) {
         let at = Instant { tick: self.state.tick, offset };
         self.events.push(Event { at, ball: self.state.balls[ball].id, position, velocity, kind });
     }

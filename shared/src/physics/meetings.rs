@@ -1,12 +1,19 @@
-//! Ball against ball: for each ball the earliest meeting with another, kept as long as neither flight changes.
+//! Ball against ball: for each ball the earliest meeting with another, kept as long as neither flight changes; and what a
+//! meeting does.
 //!
 //! Which balls meet next is a pure function of their flights, so that a world without this memory finds the same.
 
-use super::ball::{Flight, Instant};
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::ball::{Flight, Instant, Support};
+use super::constants::PLASTIC_AFTER;
+use super::contact::{Body, respond_pair};
 use super::motion::{Motion, Pair, Span};
 use super::shapes::Bounds;
 use super::ways::Ways;
-use super::world::World;
+use super::world::{EventKind, World};
 
 /// What is known about the next meeting of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -103,6 +110,69 @@ impl World {
             }
         }
         first
+    }
+
+    /// Two balls meet.
+    pub(super) fn meet_balls(&mut self, one: usize, other: usize, offset: f64) {
+        let scene = Arc::clone(&self.scene);
+        let mut places = [one, other].map(|ball| self.ball_at(ball, offset).0);
+        let velocities = [one, other].map(|ball| self.ball_at(ball, offset).1);
+        let stalled = [one, other].map(|ball| self.state.balls[ball].support == Support::Stalled);
+        for (ball, stalled) in [one, other].into_iter().zip(stalled) {
+            self.impacts[ball] += u32::from(!stalled);
+        }
+        // A ball that is worn out can still be pushed by one that is not; so each push wears out one of them.
+        if [one, other].into_iter().all(|ball| self.impacts[ball] > self.most_impacts) {
+            for (ball, place) in [one, other].into_iter().zip(places) {
+                self.stall(ball, offset, place);
+            }
+            return;
+        }
+        let apart = places[0] - places[1];
+        let normal = apart.try_normalize().unwrap_or(DVec2::Y);
+        let overlap = self.radius(one) + self.radius(other) - apart.length();
+        // Models that notice an overlap only put the balls back where they touch.
+        if scene.motion.looks_now_and_then() && overlap > 0.0 {
+            places = [places[0] + normal * (0.5 * overlap), places[1] - normal * (0.5 * overlap)];
+        }
+        let mut material = scene.ball_material;
+        if self.impacts[one] > PLASTIC_AFTER || self.impacts[other] > PLASTIC_AFTER {
+            material.restitution = 0.0;
+        }
+        for (ball, (place, velocity)) in [one, other].into_iter().zip(places.into_iter().zip(velocities)) {
+            self.refresh_spin(ball, place, velocity);
+        }
+        let body = |ball: usize, velocity: DVec2| Body {
+            velocity,
+            spin: self.state.balls[ball].spin,
+            radius: self.radius(ball),
+            // One that waits for the next tick does not give way.
+            mass: if self.state.balls[ball].support == Support::Stalled { f64::INFINITY } else { self.mass(ball) },
+        };
+        let speed = -(velocities[0] - velocities[1]).dot(normal);
+        let pulls = [one, other].map(|ball| self.state.balls[ball].flight.acceleration);
+        let pull = -(pulls[0] - pulls[1]).dot(normal);
+        // One that lies on the other would meet it for ever: it hops instead, by an eighth of pull times tick squared.
+        let hop = pull * scene.tick_seconds;
+        let rests = pull > 0.0 && (speed <= scene.rest_speed || speed <= hop);
+        let hop = rests.then_some(0.5 * hop);
+        let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material, hop);
+        let ids = [one, other].map(|ball| self.state.balls[ball].id);
+        for (place, (ball, (velocity, spin))) in [one, other].into_iter().zip(after).enumerate() {
+            if speed > scene.rest_speed {
+                let kind = EventKind::Met { other: ids[1 - place], speed };
+                self.emit(ball, offset, places[place], velocity, kind);
+            }
+            if stalled[place] {
+                continue;
+            }
+            self.state.balls[ball].spin = spin;
+            let before = match self.state.balls[ball].support {
+                Support::Line(i) | Support::Arc(i) => Some(i),
+                _ => None,
+            };
+            self.start_flight(ball, offset, places[place], velocity, None, before);
+        }
     }
 
     /// The first tick in which two balls may meet.

@@ -213,3 +213,29 @@ fn a_ball_that_rolls_along_two_walls_in_one_place_rolls_along_one() {
     assert!(matches!(support(&one, 0), Support::Line(_)));
     assert_eq!((ball(&one, 0), support(&one, 0)), (ball(&two, 0), support(&two, 0)));
 }
+
+/// Broke: a ball that lay on one of two surfaces in the same place met the other one now and then.
+#[test]
+fn a_ball_that_rolls_along_two_surfaces_in_one_place_rolls_along_one() {
+    let bowl = |name: &str| {
+        format!("Arc(name: \"{name}\", material: \"wood\", center: (0.5, 0.7), radius: 0.3, from: 90.0, to: 270.0),")
+    };
+    for k in 0..20 {
+        let start = DVec2::new(0.5, 0.7) + direction(1.6 + 0.07 * f64::from(k)) * 0.286;
+        let [mut one, mut two] =
+            [bowl("a"), bowl("a") + &bowl("b")].map(|bowls| world_with(DVec2::new(0.0, -0.793), &bowls));
+        for world in [&mut one, &mut two] {
+            launch(world, start, DVec2::ZERO);
+        }
+        for tick in 0..4000 {
+            run(&mut one, 1);
+            run(&mut two, 1);
+            assert_eq!(
+                (ball(&one, 0), support(&one, 0)),
+                (ball(&two, 0), support(&two, 0)),
+                "from {start}, tick {tick}"
+            );
+        }
+        assert!(matches!(support(&one, 0), Support::Arc(_)));
+    }
+}
