@@ -161,6 +161,7 @@ fn trace_line(table: &Table, event: &Event) -> Value {
             line["element"] = json!(format!("ball {other}"));
             line["event"] = json!("met");
         }
+        EventKind::Stalled { .. } => line["event"] = json!("stalled"),
         EventKind::Drained => line["event"] = json!("drained"),
         EventKind::Escaped => line["event"] = json!("escaped"),
     }

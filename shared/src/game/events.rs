@@ -99,7 +99,7 @@ impl GameEventKind {
             EventKind::Kicked { element, speed } => Some(Self::Kicked { element, speed: speed as f32 }),
             EventKind::Felled { element, speed } => Some(Self::Felled { element, speed: speed as f32 }),
             EventKind::Passed { element } => Some(Self::Passed { element }),
-            EventKind::Met { .. } | EventKind::Drained | EventKind::Escaped => None,
+            EventKind::Met { .. } | EventKind::Stalled { .. } | EventKind::Drained | EventKind::Escaped => None,
         }
     }
 }

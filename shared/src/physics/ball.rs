@@ -94,7 +94,7 @@ pub enum Support {
 /// A ball in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
-    /// Never used twice in a world.
+    /// Given in order, from 0; not used again before 2^32 others.
     pub id: u32,
     /// Its size and mass, by their place among the scene's kinds of ball.
     pub kind: u8,

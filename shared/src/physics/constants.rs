@@ -41,8 +41,15 @@ pub const BOUNDS_MARGIN: f64 = 1e-6;
 /// See [`BOUNDS_MARGIN`].
 pub const BOUNDS_ROUNDING: f64 = 1e-12;
 
+/// Searches within one tick that are taken up where the one before ended. A ball that flies farther in a tick than so many
+/// searches go, through a grid of many cells with nothing in them, would not be seen beyond.
+pub const MOST_SEARCHES_PER_TICK: u32 = 64;
+
+/// Fastest ball, m/s. Beyond, squares of speeds and of ways overflow. What is faster is cut to it, or refused.
+pub const MOST_SPEED: f64 = 1e13;
+
 /// Pieces of a flight, each about a cell of the broad phase long, that one search goes through before it says how far it
-/// came. Only cost depends on it.
+/// came.
 pub const MOST_PIECES: u32 = 4096;
 
 /// Parts into which the pixel model cuts a tick at the most: beyond, a step is longer than a pixel.
@@ -66,10 +73,6 @@ pub const MOST_IMPACTS_PER_TICK: u32 = 200;
 
 /// The same for long ticks: impacts a second, as many as that in a tick of a millisecond.
 pub const MOST_IMPACTS_PER_SECOND: f64 = 2e5;
-
-/// Table heights that a ball may fly within a second in a state that is restored; a real one flies 10. Larger: a state
-/// from the network can keep a step busy for seconds.
-pub const MOST_HEIGHTS_PER_SECOND: f64 = 1e5;
 
 /// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
 pub const FLIPPER_STOP_SPEED: f64 = 1.0;
@@ -105,6 +108,6 @@ pub const CLEAR_OF_TARGET: f64 = 1.01;
 /// slope, or a hop so short that the surface is known better than the coordinates are.
 pub const POLISH_STEP: f64 = 1e-6;
 
-/// Impacts with a moving surface within one tick after which no bounce is left: a ball between a rising flipper and a
-/// wall is pushed, not hammered.
-pub const PLASTIC_AFTER: u32 = MOST_IMPACTS_PER_TICK / 4;
+/// Share of the impacts within a tick that are worth following after which no bounce is left in those with a moving surface or
+/// another ball: a ball between a rising flipper and a wall is pushed, not hammered.
+pub const PLASTIC_SHARE: u32 = 4;

@@ -51,11 +51,12 @@ pub fn respond(velocity: DVec2, spin: f64, radius: f64, mass: f64, surface: &Sur
     let most = surface.material.friction * pushed;
     let change = -(SLIP_SHARE * slip).clamp(-most, most);
     let lost = (1.0 - surface.material.tangential) * relative.dot(along);
-    Response {
-        velocity: velocity + surface.normal * pushed + along * (change - lost),
-        spin: spin + change / (SPHERE_INERTIA * radius),
-        impulse,
+    let mut after = velocity + surface.normal * pushed + along * (change - lost);
+    if restitution == 0.0 && surface.kick == 0.0 && surface.inverse_mass == 0.0 {
+        // Nothing is left of the approach, not even its rounding: that would be met again.
+        after -= surface.normal * (after - surface.velocity).dot(surface.normal);
     }
+    Response { velocity: after, spin: spin + change / (SPHERE_INERTIA * radius), impulse }
 }
 
 /// A ball that meets another.

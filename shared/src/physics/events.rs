@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::constants::PLASTIC_AFTER;
+use super::constants::{MOST_SPEED, PLASTIC_SHARE};
 use super::contact::{Response, Settled, Surface, respond, settle};
 use super::flipper::FlipperRest;
 use super::motion::{Next, Span};
@@ -149,15 +149,15 @@ impl World {
         let flight = self.state.balls[ball].flight;
         let position = match next {
             Next::Meets { position, .. } => position,
-            Next::ClearUntil(_) | Next::LeavesSupport(_) => flight.position_at(t),
+            Next::ClearUntil(_) | Next::LeavesSupport(_) | Next::Escapes(_) => flight.position_at(t),
         };
         let velocity = flight.velocity_at(t);
-        if !self.scene.is_inside(position) {
+        if matches!(next, Next::Escapes(_)) || !self.scene.is_inside(position) {
             self.take_out(ball, offset, position, EventKind::Escaped);
             return;
         }
         match next {
-            Next::ClearUntil(_) => {}
+            Next::ClearUntil(_) | Next::Escapes(_) => {}
             Next::LeavesSupport(_) => {
                 self.refresh_spin(ball, position, velocity);
                 self.start_flight(ball, offset, position, velocity, None, None);
@@ -171,11 +171,14 @@ impl World {
                         self.emit(ball, offset, position, velocity, EventKind::Passed { element });
                     }
                     Role::Hole { to } => {
+                        self.impacts[ball] += 1;
+                        if self.impacts[ball] > self.most_impacts {
+                            self.stall(ball, offset, position);
+                            return;
+                        }
                         self.emit(ball, offset, position, velocity, EventKind::Passed { element });
                         self.state.balls[ball].floor = to;
                         self.start_flight(ball, offset, position, velocity, None, None);
-                        // The other floor may have the same line as its own way back: it is passed already.
-                        self.state.balls[ball].past = Some((0.0, u16::MAX));
                     }
                     Role::Drain => self.take_out(ball, offset, position, EventKind::Drained),
                     Role::Solid | Role::Kicker { .. } | Role::Target { .. } => {
@@ -211,15 +214,16 @@ impl World {
         let (radius, mass) = (self.radius(ball), self.mass(ball));
         let after = respond(velocity, self.state.balls[ball].spin, radius, mass, &surface);
         self.state.balls[ball].spin = after.spin;
-        // Contact at rest is no news, but whatever acts always is.
-        if speed > rest_speed || !matches!(kind, EventKind::Touched { .. }) {
-            self.emit(ball, offset, position, after.velocity, kind);
-        }
         let before = match self.state.balls[ball].support {
             Support::Line(i) | Support::Arc(i) => Some(i),
             _ => None,
         };
         self.start_flight(ball, offset, position, after.velocity, Some(index), before);
+        // Contact at rest is no news, but whatever acts always is.
+        if speed > rest_speed || !matches!(kind, EventKind::Touched { .. }) {
+            let velocity = self.state.balls[ball].flight.velocity;
+            self.emit(ball, offset, position, velocity, kind);
+        }
         if let (Role::Target { index: target, .. }, EventKind::Felled { .. }) = (role, kind) {
             self.state.targets[usize::from(target)] = TargetState::Down;
             self.target_fell(target, offset);
@@ -247,6 +251,10 @@ impl World {
 
     /// Too many impacts within one tick: the ball waits for the next one.
     pub(super) fn stall(&mut self, ball: usize, offset: f64, position: DVec2) {
+        let speed = self.ball_at(ball, offset).1.length();
+        if speed > self.scene.rest_speed {
+            self.emit(ball, offset, position, DVec2::ZERO, EventKind::Stalled { speed });
+        }
         let start = Instant { tick: self.state.tick, offset };
         let ball_state = &mut self.state.balls[ball];
         ball_state.flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: DVec2::ZERO };
@@ -268,15 +276,16 @@ impl World {
         let surface = flipper.surface(offset, position, normal, radius);
         let lever = flipper.lever(position - normal * radius, normal);
         let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
-        let after = self.push_by(ball, offset, position, velocity, &surface, element);
+        let speed = (surface.velocity - velocity).dot(normal);
+        let after = self.push_by(ball, position, velocity, &surface);
         motion.swing = motion.swing_at(offset);
         motion.speed = motion.speed_at(offset) - after.impulse * lever / inertia;
         motion.from = offset;
         self.flipper_motions[index] = Some(motion);
-        let (turned, speed) = (motion.swing, motion.speed);
         let flipper = &mut self.state.flippers[index];
-        (flipper.swing, flipper.speed) = (turned, speed);
+        (flipper.swing, flipper.speed) = (motion.swing, motion.speed);
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Flipper(index as u16));
+        self.tell_touch(ball, offset, position, element, speed);
     }
 
     fn meet_plunger(&mut self, ball: usize, index: usize, impact: MoverImpact) {
@@ -289,29 +298,35 @@ impl World {
         }
         let surface = plunger.surface(offset, position, normal, self.radius(ball));
         let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
-        let after = self.push_by(ball, offset, position, velocity, &surface, element);
+        let speed = (surface.velocity - velocity).dot(normal);
+        let after = self.push_by(ball, position, velocity, &surface);
         motion.pull = motion.pull_at(offset);
         motion.speed = motion.speed_at(offset) + if held { 0.0 } else { after.impulse / mass };
         motion.from = offset;
         self.plunger_motions[index] = Some(motion);
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Plunger(index as u16));
+        self.tell_touch(ball, offset, position, element, speed);
+    }
+
+    /// Whether a ball has met so much within this tick that no bounce is left in what it meets.
+    pub(super) fn is_hammered(&self, ball: usize) -> bool {
+        self.impacts[ball] > self.most_impacts / PLASTIC_SHARE
+    }
+
+    /// Tells of an impact with a moving surface, unless it was contact at rest.
+    fn tell_touch(&mut self, ball: usize, offset: f64, position: DVec2, element: u16, speed: f64) {
+        if speed > self.scene.rest_speed {
+            let velocity = self.state.balls[ball].flight.velocity;
+            self.emit(ball, offset, position, velocity, EventKind::Touched { element, speed });
+        }
     }
 
     /// The impulse between a ball and a moving surface.
-    fn push_by(
-        &mut self,
-        ball: usize,
-        offset: f64,
-        position: DVec2,
-        velocity: DVec2,
-        surface: &Surface,
-        element: u16,
-    ) -> Response {
+    fn push_by(&mut self, ball: usize, position: DVec2, velocity: DVec2, surface: &Surface) -> Response {
         self.impacts[ball] += 1;
-        let speed = (surface.velocity - velocity).dot(surface.normal);
         // Too many impacts within one tick: the rest of them takes all of the bounce.
         let mut surface = *surface;
-        if self.impacts[ball] > PLASTIC_AFTER {
+        if self.is_hammered(ball) {
             surface.material.restitution = 0.0;
         }
         self.refresh_spin(ball, position, velocity);
@@ -319,9 +334,6 @@ impl World {
         let subject = &mut self.state.balls[ball];
         let after = respond(velocity, subject.spin, radius, mass, &surface);
         subject.spin = after.spin;
-        if speed > self.scene.rest_speed {
-            self.emit(ball, offset, position, after.velocity, EventKind::Touched { element, speed });
-        }
         after
     }
 
@@ -339,7 +351,7 @@ impl World {
         let contact = position - normal * self.radius(ball);
         let surface_velocity = self.mover_velocity(support, offset, contact);
         let leaving = (velocity - surface_velocity).dot(normal);
-        let stuck = self.impacts[ball] > PLASTIC_AFTER;
+        let stuck = self.is_hammered(ball);
         if leaving <= self.scene.rest_speed || stuck {
             self.state.balls[ball].support = support;
             self.follow_surface(ball, offset);
@@ -379,6 +391,8 @@ impl World {
         before: Option<u16>,
     ) {
         let spin = self.state.balls[ball].spin;
+        let speed = velocity.length();
+        let velocity = if speed > MOST_SPEED { velocity * (MOST_SPEED / speed) } else { velocity };
         let settled = if self.scene.needs.contact {
             settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before)
         } else {

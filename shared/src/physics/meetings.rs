@@ -8,7 +8,6 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::constants::PLASTIC_AFTER;
 use super::contact::{Body, respond_pair};
 use super::motion::{Motion, Pair, Span};
 use super::shapes::Bounds;
@@ -136,7 +135,7 @@ impl World {
             places = [places[0] + normal * (0.5 * overlap), places[1] - normal * (0.5 * overlap)];
         }
         let mut material = scene.ball_material;
-        if self.impacts[one] > PLASTIC_AFTER || self.impacts[other] > PLASTIC_AFTER {
+        if self.is_hammered(one) || self.is_hammered(other) {
             material.restitution = 0.0;
         }
         for (ball, (place, velocity)) in [one, other].into_iter().zip(places.into_iter().zip(velocities)) {
@@ -154,24 +153,24 @@ impl World {
         let pull = -(pulls[0] - pulls[1]).dot(normal);
         // One that lies on the other would meet it for ever: it hops instead, by an eighth of pull times tick squared.
         let hop = pull * scene.tick_seconds;
-        let rests = pull > 0.0 && (speed <= scene.rest_speed || speed <= hop);
+        let returned = material.restitution_at(if speed > 0.0 { speed } else { 0.0 }) * speed;
+        let rests = pull > 0.0 && (speed <= scene.rest_speed || returned <= 0.5 * hop);
         let hop = rests.then_some(0.5 * hop);
         let after = respond_pair(&body(one, velocities[0]), &body(other, velocities[1]), normal, &material, hop);
         let ids = [one, other].map(|ball| self.state.balls[ball].id);
         for (place, (ball, (velocity, spin))) in [one, other].into_iter().zip(after).enumerate() {
-            if speed > scene.rest_speed {
-                let kind = EventKind::Met { other: ids[1 - place], speed };
-                self.emit(ball, offset, places[place], velocity, kind);
+            if !stalled[place] {
+                self.state.balls[ball].spin = spin;
+                let before = match self.state.balls[ball].support {
+                    Support::Line(i) | Support::Arc(i) => Some(i),
+                    _ => None,
+                };
+                self.start_flight(ball, offset, places[place], velocity, None, before);
             }
-            if stalled[place] {
-                continue;
+            if speed > scene.rest_speed && !rests {
+                let velocity = self.state.balls[ball].flight.velocity;
+                self.emit(ball, offset, places[place], velocity, EventKind::Met { other: ids[1 - place], speed });
             }
-            self.state.balls[ball].spin = spin;
-            let before = match self.state.balls[ball].support {
-                Support::Line(i) | Support::Arc(i) => Some(i),
-                _ => None,
-            };
-            self.start_flight(ball, offset, places[place], velocity, None, before);
         }
     }
 

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ball::{Ball, Instant, Support};
-use super::constants::MOST_HEIGHTS_PER_SECOND;
+use super::constants::MOST_SPEED;
 use super::flipper::FlipperState;
 use super::needs::Needs;
 use super::plunger::PlungerState;
@@ -153,8 +153,7 @@ impl WorldState {
         if self.tick > MOST_TICKS {
             return Err(StateError::Number { what: "tick", index: 0 });
         }
-        let fastest = MOST_HEIGHTS_PER_SECOND * scene.bounds.extent();
-        let is_slow = |speed: f64| speed.abs() <= fastest;
+        let is_slow = |speed: f64| speed.abs() <= MOST_SPEED;
         for (index, (flipper, spec)) in self.flippers.iter().zip(&scene.flippers).enumerate() {
             let in_stroke = (-spec.stroke..=2.0 * spec.stroke).contains(&flipper.swing);
             let coil_is_possible = (0.0..=MOST_TICKS as f64).contains(&flipper.coil_time);
@@ -177,10 +176,9 @@ impl WorldState {
         let start = ball.flight.start;
         let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
         let past_is_a_number = ball.past.is_none_or(|(t, _)| t.is_finite());
-        // A ball that crosses the table many times within a tick is no ball: to search its path would take for ever.
-        let (dt, fastest) = (scene.tick_seconds, MOST_HEIGHTS_PER_SECOND * scene.bounds.extent());
-        let is_slow = ball.flight.velocity.abs().max_element() <= fastest
-            && ball.flight.acceleration.abs().max_element() * dt <= fastest;
+        let dt = scene.tick_seconds;
+        let is_slow =
+            ball.flight.velocity.length() <= MOST_SPEED && ball.flight.acceleration.length() * dt <= MOST_SPEED;
         if usize::from(ball.kind) >= scene.kinds.len() {
             return Err(number);
         }

@@ -8,14 +8,15 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
-use super::constants::{CLEAR_OF_TARGET, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK};
+use super::constants::{
+    CLEAR_OF_TARGET, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK, MOST_SEARCHES_PER_TICK, MOST_SPEED,
+};
 use super::flipper::{FlipperMotion, FlipperRest};
 use super::meetings::Meetings;
 use super::motion::{Motion, Next, Query, Scratch, Span};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
 use super::scene::{Presence, Scene};
-use super::shapes::Bounds;
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
 /// Room for what happens in one tick: that many events, and that many for each ball of the start. A tick in which more happens
@@ -74,6 +75,11 @@ pub enum EventKind {
     Passed {
         /// The table's element.
         element: u16,
+    },
+    /// It met more within a tick than is worth following, at that speed in m/s, and lies still for the rest of it.
+    Stalled {
+        /// That it lost.
+        speed: f64,
     },
     /// It is lost.
     Drained,
@@ -228,12 +234,13 @@ impl World {
     }
 
     /// Puts a ball into play on the playfield: its id; `None` if there are too many already, the scene has no such kind, or a
-    /// number is not finite.
+    /// number is not finite or the speed beyond [`MOST_SPEED`].
     ///
     /// Balls meet each other only in a scene whose needs say so: see [`super::needs::Needs::ball_ball`].
     pub fn launch(&mut self, kind: u8, position: DVec2, velocity: DVec2) -> Option<u32> {
         let is_known = usize::from(kind) < self.scene.kinds.len();
-        if self.state.balls.len() >= MOST_BALLS || !is_known || !position.is_finite() || !velocity.is_finite() {
+        let is_possible = position.is_finite() && velocity.length() <= MOST_SPEED;
+        if self.state.balls.len() >= MOST_BALLS || !is_known || !is_possible {
             return None;
         }
         let id = self.state.served;
@@ -320,11 +327,6 @@ impl World {
                 return 0;
             };
             let (from, to) = (now.since(ball.flight.start, dt), next.time());
-            // A ball that leaves the table has to be noticed in that very tick.
-            let path = Bounds::of_flight(&ball.flight, from, if to < f64::MAX { to } else { from });
-            if !self.scene.edge.holds(&path) {
-                return 0;
-            }
             // The division may be off by a rounding, but the end of a tick is what decides. A cast saturates.
             let mut tick = state.tick.saturating_add((((to - from) / dt) as u64).saturating_sub(1));
             while tick < busy && Instant::start_of(tick + 1).since(ball.flight.start, dt) <= to {
@@ -401,10 +403,18 @@ impl World {
             Some(Next::ClearUntil(t)) if t < end => None,
             known => known,
         };
+        let mut from = if elapsed > 0.0 { elapsed } else { 0.0 };
         let next = known.unwrap_or_else(|| {
-            let tick = Span { from: if elapsed > 0.0 { elapsed } else { 0.0 }, to: end };
-            let (scene, state) = (&*self.scene, &self.state);
-            scene.motion.model().next_event(&mut Query { scene, state, ball, tick, scratch: &mut self.scratch })
+            let (scene, state, model) = (&*self.scene, &self.state, self.scene.motion.model());
+            // A search says how far it came; within the tick it is taken up there.
+            for _ in 0..MOST_SEARCHES_PER_TICK {
+                let tick = Span { from, to: end };
+                match model.next_event(&mut Query { scene, state, ball, tick, scratch: &mut self.scratch }) {
+                    Next::ClearUntil(t) if t < end && t > from => from = t,
+                    next => return next,
+                }
+            }
+            Next::ClearUntil(from)
         });
         self.next[index] = Some(next);
         let looks_at_the_end = self.scene.motion.looks_now_and_then();

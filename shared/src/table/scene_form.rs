@@ -170,8 +170,8 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
     let origin = local_origin(&scene);
     let (file, bounds) = lowered(&scene, origin);
     let context = Context::new(name, source, &file);
-    check_numbers(&context, &scene)?;
     let context = context.with_names()?;
+    check_numbers(&context, &scene)?;
     let (kinds, start) = balls(&context, &scene, origin)?;
     let ball_material = Material::bouncing(scene.ball_restitution);
     let checked = shapes::build(&context, &Bare { kinds, ball_material, start, origin, bounds })?;

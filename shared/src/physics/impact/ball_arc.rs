@@ -6,22 +6,31 @@
 use glam::DVec2;
 
 use super::near::near_circle;
-use super::{Search, TimeOfImpact, without_rounding};
+use super::{Rounding, Search, TimeOfImpact, without_rounding};
 use crate::math::roots::{Roots, quadratic, sign_changes};
 use crate::physics::ball::Flight;
 use crate::physics::constants::{DEEPEST_OVERLAP, MOST_NEWTON_STEPS, POLISH_STEP};
 use crate::physics::shapes::Arc;
 
-/// `touch`: the gap in metres below which the ball touches the surface.
-pub(super) fn first_impact(flight: &Flight, radius: f64, arc: &Arc, touch: f64, search: &Search) -> TimeOfImpact {
-    let reach = arc.reach(radius);
+pub(super) fn first_impact(
+    flight: &Flight,
+    radius: f64,
+    arc: &Arc,
+    rounding: Rounding,
+    search: &Search,
+) -> TimeOfImpact {
+    let (reach, touch) = (arc.reach(radius), rounding.gap);
+    // A ball is not inside what is smaller than itself.
+    if reach < 0.0 {
+        return TimeOfImpact::Separated;
+    }
     let offset = flight.position - arc.center;
     let gap = arc.sign() * (offset.length() - reach);
     let touches = gap <= touch && gap >= -DEEPEST_OVERLAP * radius && arc.spans(offset);
-    if touches && approaches_from_contact(flight, arc, offset) {
+    if touches && approaches_from_contact(flight, arc, offset, rounding) {
         return if search.accepts(0.0) { TimeOfImpact::Overlapping } else { TimeOfImpact::Separated };
     }
-    let crossing = first_crossing(flight, arc, reach, touch, touches, search);
+    let crossing = first_crossing(flight, arc, reach, rounding, touches, search);
     if touches {
         return crossing;
     }
@@ -33,14 +42,14 @@ pub(super) fn first_impact(flight: &Flight, radius: f64, arc: &Arc, touch: f64, 
 }
 
 /// Whether a ball that touches the surface is on its way into it, beyond what is only rounding.
-fn approaches_from_contact(flight: &Flight, arc: &Arc, offset: DVec2) -> bool {
-    let (rate, pull) = contact_rates(flight, arc, offset);
+fn approaches_from_contact(flight: &Flight, arc: &Arc, offset: DVec2, rounding: Rounding) -> bool {
+    let (rate, pull) = contact_rates(flight, arc, offset, rounding);
     rate < 0.0 || (rate == 0.0 && pull < 0.0)
 }
 
 /// Rate of the gap and half its acceleration, times twice the distance, of a ball that touches: without rounding.
-fn contact_rates(flight: &Flight, arc: &Arc, offset: DVec2) -> (f64, f64) {
-    let (distance, speed) = (offset.length(), flight.velocity.length());
+fn contact_rates(flight: &Flight, arc: &Arc, offset: DVec2, rounding: Rounding) -> (f64, f64) {
+    let (distance, speed) = (offset.length(), rounding.speed);
     let rate = 2.0 * arc.sign() * offset.dot(flight.velocity);
     let pull = arc.sign() * (flight.velocity.length_squared() + offset.dot(flight.acceleration));
     (
@@ -50,9 +59,16 @@ fn contact_rates(flight: &Flight, arc: &Arc, offset: DVec2) -> (f64, f64) {
 }
 
 /// The first time at which the ball comes through the surface from its clear side, within the arc's span.
-fn first_crossing(flight: &Flight, arc: &Arc, reach: f64, touch: f64, touches: bool, search: &Search) -> TimeOfImpact {
+fn first_crossing(
+    flight: &Flight,
+    arc: &Arc,
+    reach: f64,
+    rounding: Rounding,
+    touches: bool,
+    search: &Search,
+) -> TimeOfImpact {
     let offset = flight.position - arc.center;
-    for &(from, to) in near_circle(offset, flight.velocity, flight.acceleration, reach, touch).as_slice() {
+    for &(from, to) in near_circle(offset, flight.velocity, flight.acceleration, reach, rounding.gap).as_slice() {
         if from >= search.before {
             break;
         }
@@ -60,7 +76,7 @@ fn first_crossing(flight: &Flight, arc: &Arc, reach: f64, touch: f64, touches: b
             continue;
         }
         let contact = touches && from == 0.0;
-        for &s in crossings(flight, arc, reach, from, to - from, contact).as_slice() {
+        for &s in crossings(flight, arc, reach, from, to - from, contact.then_some(rounding)).as_slice() {
             let t = polish(flight, arc, reach, from, to, from + s);
             if search.accepts(t) && (!contact || t > 0.0) && arc.spans(flight.position_at(t) - arc.center) {
                 return TimeOfImpact::Impact(t);
@@ -74,7 +90,7 @@ fn first_crossing(flight: &Flight, arc: &Arc, reach: f64, touch: f64, touches: b
 ///
 /// The polynomial is `|offset + v s + a s^2 / 2|^2 - reach^2`; outside a ball comes through where it falls below 0, inside where
 /// it rises above. In contact at the start its constant term is zero by knowledge, whatever rounding says.
-fn crossings(flight: &Flight, arc: &Arc, reach: f64, from: f64, length: f64, contact: bool) -> Roots {
+fn crossings(flight: &Flight, arc: &Arc, reach: f64, from: f64, length: f64, contact: Option<Rounding>) -> Roots {
     let (offset, velocity) = (flight.position_at(from) - arc.center, flight.velocity_at(from));
     let (a, distance) = (flight.acceleration, offset.length());
     let mut c = [
@@ -84,17 +100,17 @@ fn crossings(flight: &Flight, arc: &Arc, reach: f64, from: f64, length: f64, con
         velocity.dot(a),
         0.25 * a.length_squared(),
     ];
-    if contact {
+    if let Some(rounding) = contact {
         c[0] = 0.0;
-        let (rate, _) = contact_rates(flight, arc, offset);
+        let (rate, _) = contact_rates(flight, arc, offset, rounding);
         c[1] = arc.sign() * rate;
     }
     // Half the second derivative is c2 + 3 c3 s + 6 c4 s^2: convex where its least value is positive.
     let lowest = if c[4] > 0.0 { (-0.25 * c[3] / c[4]).clamp(0.0, length) } else { 0.0 };
     if c[2] + 3.0 * lowest * (c[3] + 2.0 * c[4] * lowest) > 0.0 {
-        return if arc.sign() > 0.0 { descent(&c, length) } else { ascent(&c, length) };
+        return if arc.sign() > 0.0 { descent(&c, length, from > 0.0) } else { ascent(&c, length) };
     }
-    let roots = match (contact, c[1] == 0.0) {
+    let roots = match (contact.is_some(), c[1] == 0.0) {
         (false, _) => sign_changes(c, 0.0, length),
         // In contact, s = 0 is divided out.
         (true, false) => sign_changes([c[1], c[2], c[3], c[4]], 0.0, length),
@@ -104,8 +120,12 @@ fn crossings(flight: &Flight, arc: &Arc, reach: f64, from: f64, length: f64, con
     roots.filtered(|s| arc.sign() * slope(s) < 0.0)
 }
 
-/// The root at which a convex polynomial falls below 0 within `0..=length`: Newton's method from the left.
-fn descent(c: &[f64; 5], length: f64) -> Roots {
+/// The root at which a convex polynomial falls below 0 within `0..=length`: Newton's method from the left. Where the ball
+/// `enters` the circle's neighbourhood it is clear of it, even if after a long flight rounding says that it is not.
+fn descent(c: &[f64; 5], length: f64, enters: bool) -> Roots {
+    if enters && c[0] <= 0.0 && c[1] < 0.0 {
+        return Roots::one(0.0);
+    }
     let mut s = 0.0;
     for _ in 0..MOST_NEWTON_STEPS {
         let (value, slope) = value_and_slope(c, s);
@@ -131,6 +151,11 @@ fn descent(c: &[f64; 5], length: f64) -> Roots {
 /// The root at which a convex polynomial rises above 0 within `0..=length`: Newton's method from the right.
 fn ascent(c: &[f64; 5], length: f64) -> Roots {
     let mut s = length;
+    let (value, slope) = value_and_slope(c, s);
+    // Where it leaves the circle's neighbourhood it is beyond it, likewise.
+    if value <= 0.0 && slope > 0.0 {
+        return Roots::one(s);
+    }
     for _ in 0..MOST_NEWTON_STEPS {
         let (value, slope) = value_and_slope(c, s);
         if value <= 0.0 {
@@ -217,7 +242,6 @@ mod tests {
 
     use super::*;
     use crate::physics::ball::Instant;
-    use crate::physics::impact::touch_gap;
     use crate::physics::shapes::Side;
 
     const RADIUS: f64 = 0.0135;
@@ -227,7 +251,7 @@ mod tests {
     }
 
     fn impact(flight: &Flight, arc: &Arc, to: f64) -> TimeOfImpact {
-        first_impact(flight, RADIUS, arc, touch_gap(flight, RADIUS), &Search::up_to(to))
+        first_impact(flight, RADIUS, arc, Rounding::of(flight, RADIUS), &Search::up_to(to))
     }
 
     /// The upper half of a circle of 0.257 m, from inside.

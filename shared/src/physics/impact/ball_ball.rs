@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::{Search, TimeOfImpact, ball_arc, touch_gap};
+use super::{Rounding, Search, TimeOfImpact, ball_arc};
 use crate::physics::ball::Flight;
 use crate::physics::constants::NEAR_MARGIN;
 use crate::physics::shapes::{Arc, Side};
@@ -21,8 +21,8 @@ pub fn ball_ball(one: &Flight, one_radius: f64, other: &Flight, other_radius: f6
     }
     let disc = Arc { center: DVec2::ZERO, radius: other_radius, side: Side::Outside, span: None };
     // What they may be off each other by rounding is that of their coordinates, not of their distance.
-    let (a, b) = (touch_gap(one, one_radius), touch_gap(other, other_radius));
-    ball_arc::first_impact(&seen, one_radius, &disc, if a > b { a } else { b }, search)
+    let rounding = Rounding::of(one, one_radius).of_both(Rounding::of(other, other_radius));
+    ball_arc::first_impact(&seen, one_radius, &disc, rounding, search)
 }
 
 /// Whether a straight way clearly parts from (0, 0) or passes it by more than `reach`: most pairs of balls do.

@@ -75,11 +75,16 @@ fn accept(flight: &Flight, segment: &Segment, search: &Search, t: f64) -> TimeOf
     }
 }
 
-/// When the ball's centre passes the segment.
-pub(super) fn first_pass(flight: &Flight, segment: &Segment, search: &Search) -> TimeOfImpact {
+/// When the ball's centre passes the segment. A flight that begins on a line where flights begin (`begins`: a hole) has passed
+/// it, whatever rounding says: only its return counts.
+pub(super) fn first_pass(flight: &Flight, segment: &Segment, begins: bool, search: &Search) -> TimeOfImpact {
     let gap = segment.height(flight.position);
     let rate = segment.normal.dot(flight.velocity);
     let half_pull = 0.5 * segment.normal.dot(flight.acceleration);
+    if begins && gap.abs() <= touch_gap(flight, 0.0) {
+        let returns = -rate / half_pull;
+        return if returns > 0.0 { accept(flight, segment, search, returns) } else { TimeOfImpact::Separated };
+    }
     for &t in quadratic([gap, rate, half_pull]).as_slice() {
         if t > 0.0 {
             let found = accept(flight, segment, search, t);

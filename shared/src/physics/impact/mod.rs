@@ -14,6 +14,7 @@ pub(crate) use ball_segment::leaves_segment;
 
 use super::ball::Flight;
 use super::constants::{GRAZE, TOUCH};
+use super::scene::{Collider, Role};
 use super::shapes::Shape;
 
 /// The outcome of a search for an impact.
@@ -69,14 +70,17 @@ impl Search {
 pub fn ball_shape(flight: &Flight, radius: f64, shape: &Shape, search: &Search) -> TimeOfImpact {
     match shape {
         Shape::Segment(segment) => ball_segment::first_impact(flight, radius, segment, search),
-        Shape::Arc(arc) => ball_arc::first_impact(flight, radius, arc, touch_gap(flight, radius), search),
+        Shape::Arc(arc) => ball_arc::first_impact(flight, radius, arc, Rounding::of(flight, radius), search),
     }
 }
 
-/// The first time within `search` at which the ball's centre passes `shape`, in either direction.
-pub fn center_passes(flight: &Flight, shape: &Shape, search: &Search) -> TimeOfImpact {
-    match shape {
-        Shape::Segment(segment) => ball_segment::first_pass(flight, segment, search),
+/// The first time within `search` at which the ball's centre passes a sensor, hole or drain, in either direction.
+pub fn center_passes(flight: &Flight, collider: &Collider, search: &Search) -> TimeOfImpact {
+    match &collider.shape {
+        Shape::Segment(segment) => {
+            let begins = matches!(collider.role, Role::Hole { .. });
+            ball_segment::first_pass(flight, segment, begins, search)
+        }
         Shape::Arc(_) => TimeOfImpact::Separated,
     }
 }
@@ -84,6 +88,28 @@ pub fn center_passes(flight: &Flight, shape: &Shape, search: &Search) -> TimeOfI
 /// The gap below which a ball touches a surface, metres: a few roundings of the coordinates involved.
 pub(crate) fn touch_gap(flight: &Flight, radius: f64) -> f64 {
     TOUCH * (flight.position.abs().max_element() + radius)
+}
+
+/// What may be only rounding where a ball touches something.
+#[derive(Debug, Clone, Copy)]
+struct Rounding {
+    /// Of a gap, m.
+    gap: f64,
+    /// The speed whose rounding a rate may be, m/s: of the fastest of what moves.
+    speed: f64,
+}
+
+impl Rounding {
+    /// Of one ball's coordinates and speed.
+    fn of(flight: &Flight, radius: f64) -> Self {
+        Self { gap: touch_gap(flight, radius), speed: flight.velocity.length() }
+    }
+
+    /// Of two balls, seen from each other: that of their own numbers, not of their difference.
+    fn of_both(self, other: Self) -> Self {
+        let larger = |a: f64, b: f64| if a > b { a } else { b };
+        Self { gap: larger(self.gap, other.gap), speed: larger(self.speed, other.speed) }
+    }
 }
 
 /// `rate` without what is only rounding of `scale`.

@@ -5,10 +5,13 @@
 use glam::DVec2;
 
 use super::super::ball::{Flight, Support};
+use super::super::constants::LONGEST_FLIGHT;
 use super::super::impact::{Search, ball_ball, ball_shape, center_passes};
 use super::super::scene::Scene;
+use super::super::shapes::Bounds;
 use super::search::{Found, first_on_path, support_ends};
 use super::{MotionModel, Next, Pair, Query, Span};
+use crate::math::roots::quadratic;
 
 pub(super) struct Exact;
 
@@ -30,11 +33,19 @@ impl MotionModel for Exact {
         let (radius, ends) = (scene.radius(ball.kind), support_ends(scene, ball));
         let found = first_on_path(query, flight, span, ball.past, ends, |_, collider, search| {
             if collider.role.is_passed() {
-                center_passes(flight, &collider.shape, search)
+                center_passes(flight, collider, search)
             } else {
                 ball_shape(flight, radius, &collider.shape, search)
             }
         });
+        let until = found.time();
+        let way = Bounds::of_flight(flight, span.from, if until < LONGEST_FLIGHT { until } else { span.from });
+        if !scene.edge.holds(&way)
+            && let Some(t) = leaves(flight, &scene.edge, span.from)
+            && t <= until
+        {
+            return Next::Escapes(t);
+        }
         match found {
             Found::ClearUntil(t) => Next::ClearUntil(t),
             Found::Collider(time, collider) => Next::Meets { time, collider, position: flight.position_at(time) },
@@ -50,4 +61,27 @@ impl MotionModel for Exact {
     fn parts(&self, _scene: &Scene, _flight: &Flight, _tick: Span) -> Option<u32> {
         None
     }
+}
+
+/// When a flight leaves a box, at `from` or later, seconds since its start.
+fn leaves(flight: &Flight, edge: &Bounds, from: f64) -> Option<f64> {
+    let place = flight.position_at(from);
+    if !edge.contains(place) {
+        return Some(from);
+    }
+    let mut first: Option<f64> = None;
+    // How far it is inside of each side, and how that changes.
+    for (gap, rate, pull) in [
+        (flight.position.x - edge.low.x, flight.velocity.x, flight.acceleration.x),
+        (edge.high.x - flight.position.x, -flight.velocity.x, -flight.acceleration.x),
+        (flight.position.y - edge.low.y, flight.velocity.y, flight.acceleration.y),
+        (edge.high.y - flight.position.y, -flight.velocity.y, -flight.acceleration.y),
+    ] {
+        for &t in quadratic([gap, rate, 0.5 * pull]).as_slice() {
+            if t >= from && rate + pull * t < 0.0 && first.is_none_or(|first| t < first) {
+                first = Some(t);
+            }
+        }
+    }
+    first
 }

@@ -105,13 +105,15 @@ pub enum Next {
     },
     /// The ball reaches the end of the straight surface that it lies on.
     LeavesSupport(f64),
+    /// The ball leaves the scene.
+    Escapes(f64),
 }
 
 impl Next {
     /// When.
     pub fn time(self) -> f64 {
         match self {
-            Self::ClearUntil(time) | Self::Meets { time, .. } | Self::LeavesSupport(time) => time,
+            Self::ClearUntil(time) | Self::Meets { time, .. } | Self::LeavesSupport(time) | Self::Escapes(time) => time,
         }
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn next_event(query: &mut Query<'_>, parts: u32) -> Next {
             let collider = &scene.colliders[usize::from(index)];
             if collider.role.is_passed() && state.has(collider) && collider.floor == ball.floor {
                 let search = Search { before: limit, after: past, strictly: index <= past_index };
-                if let Some(time) = center_passes(flight, &collider.shape, &search).time() {
+                if let Some(time) = center_passes(flight, collider, &search).time() {
                     limit = time;
                     passed = Some(Next::Meets { time, collider: index, position: flight.position_at(time) });
                 }
@@ -123,6 +123,10 @@ fn overlap_at(shape: &Shape, radius: f64, before: DVec2, position: DVec2, veloci
         Shape::Arc(arc) => {
             let offset = position - arc.center;
             let (distance, was) = (offset.length(), (before - arc.center).length());
+            // A ball is not inside what is smaller than itself.
+            if arc.reach(radius) < 0.0 {
+                return None;
+            }
             let came_from_here = match arc.side {
                 Side::Outside => was >= arc.radius,
                 Side::Inside => was <= arc.radius && distance < arc.radius + radius,

@@ -49,6 +49,15 @@ pub(super) enum Found {
     EndOfSupport(f64),
 }
 
+impl Found {
+    /// When.
+    pub(super) fn time(self) -> f64 {
+        match self {
+            Self::ClearUntil(t) | Self::Collider(t, _) | Self::EndOfSupport(t) => t,
+        }
+    }
+}
+
 /// The earliest event so far. Ties go to the collider of the lowest index.
 struct Earliest {
     time: f64,

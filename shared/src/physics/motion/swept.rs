@@ -36,7 +36,7 @@ impl MotionModel for Swept {
         let ends = support_ends(scene, ball).map(|t| t - tick.from);
         let found = first_on_path(query, &chord, span, None, ends, |index, collider, search| {
             let outcome = if collider.role.is_passed() {
-                center_passes(&chord, &collider.shape, search)
+                center_passes(&chord, collider, search)
             } else {
                 match ball_shape(&chord, radius, &collider.shape, search) {
                     // The ball leaves the surface and comes back to it within the tick: a hop that the chord does not see.

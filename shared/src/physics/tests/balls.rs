@@ -179,3 +179,32 @@ fn balls_that_lie_on_each_other_hold_up_no_tick() {
         }
     }
 }
+
+/// Broke: balls without bounce met again and again for the rounding of their speeds, and stopped dead.
+#[test]
+fn balls_without_bounce_go_on_together_and_meet_once() {
+    let mut rng = crate::math::Rng::new(6);
+    for round in 0..200 {
+        let mut any = || DVec2::new(rng.between(-4.0, 4.0), rng.between(-4.0, 4.0));
+        let (one, other, from) = (any(), any(), any() * 0.01 + DVec2::new(0.1, 0.0));
+        let meets = (one - other).normalize() * 0.1;
+        let text = format!(
+            "Scene(gravity: (0.0, 0.0), ball_restitution: 0.0, bounds: (-99.0, -99.0, 99.0, 99.0), balls: [
+                (position: ({:?}, {:?}), velocity: ({:?}, {:?})), (position: ({:?}, {:?}), velocity: ({:?}, {:?}))])",
+            from.x,
+            from.y,
+            one.x,
+            one.y,
+            from.x + meets.x,
+            from.y + meets.y,
+            other.x,
+            other.y
+        );
+        let table = Table::parse("pair.ron", &text).unwrap_or_else(|error| panic!("{error}"));
+        let mut world = World::new(table.scene);
+        let events = run(&mut world, 1000);
+        assert_eq!(events.len(), 2, "round {round}: {events:?}");
+        let (a, b) = (ball(&world, 0).1, ball(&world, 1).1);
+        assert!((a + b - one - other).length() < 1e-14, "round {round}: {a} and {b}");
+    }
+}

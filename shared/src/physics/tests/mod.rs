@@ -6,6 +6,7 @@ mod flippers;
 mod needs;
 mod plunger;
 mod restore;
+mod searches;
 mod surfaces;
 mod tunnelling;
 
