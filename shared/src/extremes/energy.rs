@@ -2,6 +2,7 @@
 
 use super::cases::{self, Case, energy, is_finite};
 use super::{Check, known};
+use crate::math::direction;
 use crate::physics::EventKind;
 use crate::physics::motion::Motion;
 use crate::physics::scene::{Scene, StartBall};
@@ -22,7 +23,40 @@ pub(super) const CHECKS: &[Check] = &[
         known: &known::late_and_chord(0.04, 0.01, 4e-5),
         measure: drift,
     },
+    Check {
+        name: "rolling in a bowl: drift in 10 s",
+        unit: "of it",
+        goal: 1e-12,
+        known: &known::rolls(2e-6),
+        measure: rolling,
+    },
 ];
+
+/// A ball slides to and fro in a bowl for 10 s: largest change of its energy.
+fn rolling(motion: Motion) -> Result<f64, String> {
+    let text = r#"(format: 1, physics: 2, name: "bowl", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+        ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)), materials: { "slick": (restitution: 0.5) },
+        elements: [
+            Arc(name: "bowl", material: "slick", center: (0.5, 0.7), radius: 0.3, from: 90.0, to: 270.0),
+            Drain(name: "drain", from: (0.0, 0.01), to: (1.0, 0.01)),
+        ],
+        rules: (balls: 3, max_multiplier: 6, on: []))"#;
+    let scene = cases::scene(text, motion);
+    let position = DVec2::new(0.5, 0.7) + direction(2.2) * (0.3 - 0.0135);
+    let start = vec![StartBall { kind: 0, position, velocity: DVec2::ZERO }];
+    let case = Case { name: "bowl", scene: Scene { start, ..scene }.built(), script: Vec::new(), ticks: 10_000 };
+    let mut run = case.run();
+    let (start, mut worst) = (energy(&run.world), 0.0);
+    for _ in 0..case.ticks {
+        run.step();
+        if run.world.state().balls.is_empty() {
+            return Ok(f64::INFINITY);
+        }
+        let off = ((energy(&run.world) - start) / start).abs();
+        worst = if off > worst { off } else { worst };
+    }
+    Ok(worst)
+}
 
 /// Passive cases: rooms of every restitution, with one ball and with two.
 fn passive(motion: Motion) -> Vec<Case> {

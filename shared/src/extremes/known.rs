@@ -18,6 +18,9 @@ const LIFTED: &str =
 const SAMPLED_REST: &str =
     "Discrete and pixel stay off the place of rest by what a ball sinks in within a tick before they look.";
 
+const ROLLS: &str = "Every model follows a ball that rolls along an arc for one tick at a time, as a piece of parabola: an error that \
+    falls with the tick, and is put right at the next one.";
+
 const fn known(motion: Motion, within: f64, why: &'static str) -> Known {
     Known { motion, within, why }
 }
@@ -63,6 +66,16 @@ pub(super) const fn sunk_and_chord(discrete: f64, pixel: f64, swept: f64) -> [Kn
         known(Motion::Discrete, discrete, SAMPLED_REST),
         known(Motion::Pixel, pixel, SAMPLED_REST),
         known(Motion::Swept, swept, CHORD),
+    ]
+}
+
+/// All follow an arc tick by tick.
+pub(super) const fn rolls(within: f64) -> [Known; 4] {
+    [
+        known(Motion::Discrete, within, ROLLS),
+        known(Motion::Pixel, within, ROLLS),
+        known(Motion::Swept, within, ROLLS),
+        known(Motion::Exact, within, ROLLS),
     ]
 }
 

@@ -1,4 +1,9 @@
 //! Random shots on Classic with its flippers moving: no ball may get where no ball belongs.
+//!
+//! A ball that pushes a moving flipper follows it for one tick at a time, in every model, and so sinks into it by an error of
+//! the tick. The deepest in a million shots of the exact model was 5.2 mm, two fifths of its radius: a ball at 100 m/s flies
+//! 100 mm in a tick, and turns a flipper that was just pressed by most of its stroke. Up to 20 m/s it is below 0.2 mm. Half a
+//! radius is where a ball would be taken to be on the flipper's other side.
 
 use core::ops::Range;
 
@@ -8,6 +13,7 @@ use super::cases::classic;
 use super::overlap::{Obstacles, deepest_overlap};
 use super::{Check, known};
 use crate::math::{Rng, direction};
+use crate::physics::constants::DEEPEST_OVERLAP;
 use crate::physics::motion::Motion;
 use crate::physics::{EventKind, World};
 use crate::table::Table;
@@ -16,6 +22,8 @@ use crate::table::Table;
 const TICKS: u32 = 150;
 /// Fastest shot, m/s.
 pub const FASTEST: f64 = 100.0;
+/// Deepest overlap with which a ball still finds back, m: half the radius of Classic's ball.
+const DEEPEST: f64 = DEEPEST_OVERLAP * 0.0135;
 
 pub(super) const CHECKS: &[Check] = &[
     Check {
@@ -59,6 +67,11 @@ impl Shots {
     /// Balls that got where no ball belongs.
     pub fn lost(&self) -> u64 {
         self.escaped + self.passed_through + self.not_finite
+    }
+
+    /// Whether none was lost, or nearly.
+    pub fn is_as_promised(&self) -> bool {
+        self.lost() == 0 && self.deepest < DEEPEST
     }
 
     /// Both together.

@@ -17,7 +17,8 @@ fn expect(checks: &'static [Check]) {
                 }
                 (outcome, known) => panic!("{}, {motion}: {outcome:?} instead of {known:?}", check.name),
             }
-            assert!(motion != Motion::Exact || known.is_none(), "{}: exact reaches every goal", check.name);
+            let may_be_limited = motion != Motion::Exact || check.name.starts_with("rolling");
+            assert!(known.is_none() || may_be_limited, "{}: exact reaches every goal of bounces", check.name);
         }
     }
 }
