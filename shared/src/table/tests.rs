@@ -351,6 +351,45 @@ fn the_example_in_the_description_is_a_good_table() {
     }
 }
 
+#[test]
+fn the_scene_in_the_description_is_a_good_scene() {
+    let description = include_str!("../../tables/README.md");
+    let example = description.find("    // Two balls in a box").map(|at| &description[at..]).unwrap_or_default();
+    let example = example.split("\nMetres").next().unwrap_or_default();
+    match Table::parse("README.md", example) {
+        Ok(table) => assert_eq!((table.scene.start.len(), table.scene.kinds.len(), table.has_rules), (2, 2, false)),
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// What a scene gets wrong is told like what a table does.
+#[test]
+fn mistakes_in_a_scene_are_refused_with_place_and_remedy() {
+    let good = "Scene(\n gravity: (0.0, -1.0),\n balls: [(position: (0.5, 0.5)), (position: (0.2, 0.5))],\n elements: [\n  Wall(points: [(0.0, 0.0), (1.0, 0.0)]),\n  Post(center: (0.5, 0.2), radius: 0.1, restitution: 0.5),\n ],\n)";
+    assert!(Table::parse("scene.ron", good).is_ok());
+    for (from, to, line, says) in [
+        ("-1.0)", "NaN)", 2, "m/s^2 would be right"),
+        ("(0.2, 0.5)", "(0.51, 0.5)", 3, "it overlaps ball 1"),
+        ("(0.2, 0.5)", "(0.2, inf)", 3, "is no place"),
+        ("(0.2, 0.5))", "(0.2, 0.5), radius: 0.0)", 3, "0.0135 m would be right"),
+        ("(0.2, 0.5))", "(0.2, 0.5), mass: NaN)", 3, "0.08 kg would be right"),
+        ("(0.2, 0.5))", "(0.2, 0.5), velocity: (1e300, 0.0))", 3, "m/s would be right"),
+        ("(0.2, 0.5))", "(0.2, 0.5), spin: 1.0)", 3, "Unexpected field"),
+        ("(1.0, 0.0)]", "(1.0, 1e300)]", 5, "is no place"),
+        ("(0.0, 0.0), (1.0, 0.0)", "(0.0, 0.0)", 5, "2 to 500 would be right"),
+        ("radius: 0.1,", "radius: 0.35,", 3, "would overlap \"post 2\""),
+        ("restitution: 0.5", "restitution: -0.5", 6, "0.8 would be right"),
+        ("Post(", "Bumper(", 6, "expected one of `Wall`"),
+        ("gravity: (0.0, -1.0)", "tick_hz: 0, gravity: (0.0, -1.0)", 2, "1000 would be right"),
+        ("gravity: (0.0, -1.0)", "bounds: (1.0, 0.0, 0.0, 1.0), gravity: (0.0, -1.0)", 2, "would be right"),
+        ("gravity: (0.0, -1.0)", "motion: Fast, gravity: (0.0, -1.0)", 2, "expected one of"),
+    ] {
+        let error = Table::parse("scene.ron", &good.replacen(from, to, 1)).expect_err(to);
+        assert_eq!(error.line, line, "{to}: {error}");
+        assert!(error.to_string().contains(says), "{to}: {error}");
+    }
+}
+
 /// A ball that was served within a bumper stayed there.
 #[test]
 fn a_ball_is_not_served_within_something() {
