@@ -391,8 +391,8 @@ impl World {
         before: Option<u16>,
     ) {
         let spin = self.state.balls[ball].spin;
-        let speed = velocity.length();
-        let velocity = if speed > MOST_SPEED { velocity * (MOST_SPEED / speed) } else { velocity };
+        let is_possible = velocity.length_squared() <= MOST_SPEED * MOST_SPEED;
+        let velocity = if is_possible { velocity } else { velocity * (MOST_SPEED / velocity.length()) };
         let settled = if self.scene.needs.contact {
             settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before)
         } else {

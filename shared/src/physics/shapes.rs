@@ -216,6 +216,9 @@ impl Bounds {
         let mut bounds = Self { low: a.min(b), high: a.max(b) };
         // The turning point of each coordinate, if it lies within.
         let turn = |velocity: f64, acceleration: f64| {
+            if acceleration == 0.0 {
+                return None;
+            }
             let t = -velocity / acceleration;
             (t > from && t < to).then(|| flight.position_at(t))
         };

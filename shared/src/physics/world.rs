@@ -233,13 +233,13 @@ impl World {
         self.launch(0, position, DVec2::ZERO)
     }
 
-    /// Puts a ball into play on the playfield: its id; `None` if there are too many already, the scene has no such kind, or a
-    /// number is not finite or the speed beyond [`MOST_SPEED`].
+    /// Puts a ball into play on the playfield: its id; `None` if there are too many already, the scene has no such kind, it
+    /// would be outside of the scene, or a number is not finite or the speed beyond [`MOST_SPEED`].
     ///
     /// Balls meet each other only in a scene whose needs say so: see [`super::needs::Needs::ball_ball`].
     pub fn launch(&mut self, kind: u8, position: DVec2, velocity: DVec2) -> Option<u32> {
         let is_known = usize::from(kind) < self.scene.kinds.len();
-        let is_possible = position.is_finite() && velocity.length() <= MOST_SPEED;
+        let is_possible = self.scene.is_inside(position) && velocity.length() <= MOST_SPEED;
         if self.state.balls.len() >= MOST_BALLS || !is_known || !is_possible {
             return None;
         }
@@ -371,7 +371,12 @@ impl World {
     fn take_out_escaped(&mut self) {
         let now = Instant::start_of(self.state.tick);
         for index in (0..self.state.balls.len()).rev() {
-            let ball = self.state.balls[index];
+            let ball = &self.state.balls[index];
+            // The exact model knows beforehand when a flight leaves the scene.
+            let is_flight = matches!(ball.support, Support::None | Support::Line(_) | Support::Wedge(..));
+            if is_flight && self.scene.motion == Motion::Exact {
+                continue;
+            }
             let (position, velocity) = ball.at(now, self.scene.tick_seconds);
             if !self.scene.is_inside(position) {
                 self.events.push(Event { at: now, ball: ball.id, position, velocity, kind: EventKind::Escaped });

@@ -177,6 +177,10 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
     let checked = shapes::build(&context, &Bare { kinds, ball_material, start, origin, bounds })?;
     for (place, ball) in checked.start.iter().enumerate() {
         let (spot, radius) = (Spot::StartBall(place), checked.radius(ball.kind));
+        if !checked.is_inside(ball.position) {
+            let problem = "it is beyond the scene's `bounds`; a place within them would be right".to_owned();
+            return Err(context.error(spot, Some("position"), problem));
+        }
         context.start_is_clear(spot, "position", (ball.position.x, ball.position.y), radius, &checked)?;
         let reach = |other: &StartBall| (radius + checked.radius(other.kind)) * (1.0 - 1e-6);
         let overlaps = |other: &StartBall| (other.position - ball.position).length() < reach(other);

@@ -382,6 +382,12 @@ fn mistakes_in_a_scene_are_refused_with_place_and_remedy() {
         ("Post(", "Bumper(", 6, "expected one of `Wall`"),
         ("gravity: (0.0, -1.0)", "tick_hz: 0, gravity: (0.0, -1.0)", 2, "1000 would be right"),
         ("gravity: (0.0, -1.0)", "bounds: (1.0, 0.0, 0.0, 1.0), gravity: (0.0, -1.0)", 2, "would be right"),
+        (
+            "gravity: (0.0, -1.0)",
+            "bounds: (0.0, 0.0, 0.1, 1.0), gravity: (0.0, -1.0)",
+            3,
+            "beyond the scene's `bounds`",
+        ),
         ("gravity: (0.0, -1.0)", "motion: Fast, gravity: (0.0, -1.0)", 2, "expected one of"),
     ] {
         let error = Table::parse("scene.ron", &good.replacen(from, to, 1)).expect_err(to);
