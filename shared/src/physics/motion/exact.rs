@@ -31,7 +31,7 @@ impl MotionModel for Exact {
         let past = ball.past.map_or(0.0, |(t, _)| t);
         let span = Span { from: if past > query.tick.from { past } else { query.tick.from }, to };
         let (radius, ends) = (scene.radius(ball.kind), support_ends(scene, ball));
-        let found = first_on_path(query, flight, span, ball.past, ends, |_, collider, search| {
+        let (found, around) = first_on_path(query, flight, span, ball.past, ends, |_, collider, search| {
             if collider.role.is_passed() {
                 center_passes(flight, collider, search)
             } else {
@@ -39,7 +39,8 @@ impl MotionModel for Exact {
             }
         });
         let until = found.time();
-        let way = Bounds::of_flight(flight, span.from, if until < LONGEST_FLIGHT { until } else { span.from });
+        let way = || Bounds::of_flight(flight, span.from, if until < LONGEST_FLIGHT { until } else { span.from });
+        let way = around.unwrap_or_else(way);
         if !scene.edge.holds(&way)
             && let Some(t) = leaves(flight, &scene.edge, span.from)
             && t <= until

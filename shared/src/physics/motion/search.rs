@@ -77,7 +77,7 @@ impl Earliest {
 }
 
 /// The first event within `span` of `path`, or beyond it, whose colliders' times `time_of` tells. What happened up to `past`
-/// is past, and at `support_ends` that of the ball does.
+/// is past, and at `support_ends` that of the ball does. With it the box around the way there, if it was needed.
 pub(super) fn first_on_path(
     query: &mut Query<'_>,
     path: &Flight,
@@ -85,7 +85,7 @@ pub(super) fn first_on_path(
     past: Option<(f64, u16)>,
     support_ends: Option<f64>,
     time_of: impl Fn(u16, &Collider, &Search) -> TimeOfImpact,
-) -> Found {
+) -> (Found, Option<Bounds>) {
     let (scene, state, ball) = (query.scene, query.state, query.ball);
     let (after, past_index) = past.unwrap_or((f64::NEG_INFINITY, 0));
     let mut earliest = Earliest { time: f64::INFINITY, index: u32::MAX, found: Found::ClearUntil(f64::INFINITY) };
@@ -95,14 +95,15 @@ pub(super) fn first_on_path(
     }
     // When a shape is met, if that is of interest.
     let look_at = |index: u16, collider: &Collider, earliest: &Earliest| {
-        if collider.floor != ball.floor || !state.has(collider) || is_part_of_support(scene, ball.support, index) {
+        let is_support = ball.support != Support::None && is_part_of_support(scene, ball.support, index);
+        if is_support || collider.floor != ball.floor || !state.has(collider) {
             return None;
         }
         let search = Search { before: earliest.time.next_up(), after, strictly: index <= past_index };
         time_of(index, collider, &search).time()
     };
     match &scene.grid {
-        Some(grid) => along_cells(query.scratch, scene, grid, path, span, earliest, look_at),
+        Some(grid) => (along_cells(query.scratch, scene, grid, path, span, earliest, look_at), None),
         None => among_all(scene, path, span, earliest, look_at),
     }
 }
@@ -114,7 +115,7 @@ fn among_all(
     span: Span,
     mut earliest: Earliest,
     look_at: impl Fn(u16, &Collider, &Earliest) -> Option<f64>,
-) -> Found {
+) -> (Found, Option<Bounds>) {
     // The box around the way up to the earliest event, once there is an end to it.
     let way_until = |end: f64| Bounds::of_flight(path, span.from, if end > span.from { end } else { span.from });
     let mut around = (span.to < f64::INFINITY).then(|| way_until(span.to));
@@ -128,11 +129,11 @@ fn among_all(
         }
     }
     if earliest.time <= span.to && earliest.time < f64::INFINITY {
-        return earliest.found;
+        return (earliest.found, around);
     }
     // It meets nothing: it may leave the scene, and is asked for again on the way.
     let to = span.from + piece(path, span.from, scene.bounds.extent());
-    Found::ClearUntil(if to < span.to { to } else { span.to })
+    (Found::ClearUntil(if to < span.to { to } else { span.to }), None)
 }
 
 /// Many shapes: those in the cells along the way, piece by piece.

@@ -34,7 +34,7 @@ impl MotionModel for Swept {
         let radius = scene.radius(ball.kind);
         let span = Span { from: 0.0, to: tick.to - tick.from };
         let ends = support_ends(scene, ball).map(|t| t - tick.from);
-        let found = first_on_path(query, &chord, span, None, ends, |index, collider, search| {
+        let (found, _) = first_on_path(query, &chord, span, None, ends, |index, collider, search| {
             let outcome = if collider.role.is_passed() {
                 center_passes(&chord, collider, search)
             } else {
