@@ -267,20 +267,18 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
                 points: points.iter().map(|&point| local(point)).collect(),
                 floor: *floor,
             }),
-            SceneElement::Post { name, center, radius, restitution, floor } => ElementFile::Post(PostFile {
-                name: named(name, "post"),
-                material: material(*restitution),
-                center: local(*center),
-                radius: *radius,
-                floor: *floor,
-            }),
-            SceneElement::Ring { name, center, radius, restitution, floor } => ElementFile::Ring(PostFile {
-                name: named(name, "ring"),
-                material: material(*restitution),
-                center: local(*center),
-                radius: *radius,
-                floor: *floor,
-            }),
+            SceneElement::Post { name, center, radius, restitution, floor }
+            | SceneElement::Ring { name, center, radius, restitution, floor } => {
+                let is_post = matches!(element, SceneElement::Post { .. });
+                let round = PostFile {
+                    name: named(name, if is_post { "post" } else { "ring" }),
+                    material: material(*restitution),
+                    center: local(*center),
+                    radius: *radius,
+                    floor: *floor,
+                };
+                if is_post { ElementFile::Post(round) } else { ElementFile::Ring(round) }
+            }
             SceneElement::Hole { name, from, to, floor, leads_to } => ElementFile::Hole(HoleFile {
                 name: named(name, "hole"),
                 from: local(*from),
