@@ -9,6 +9,7 @@ mod config;
 mod connection;
 mod listener;
 mod lobby;
+pub mod measure;
 mod pacing;
 mod room;
 mod session;
