@@ -10,10 +10,12 @@ use shared::extremes::Report;
 use shared::extremes::shots::{FASTEST, Shots, shots};
 use shared::game::replay::{Recorder, Replay};
 use shared::physics::motion::Motion;
+use shared::table::{Accuracy, Horizon};
+use starball_server::measure::{self, Plan};
 use starball_server::simulate::{self, Player, Simulation};
 use starball_server::{load_table, load_text};
 
-use crate::Simulate;
+use crate::{Measure, Simulate};
 
 /// `simulate`.
 pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
@@ -56,6 +58,37 @@ pub(crate) fn extremes(shots: u64) -> Result<(), String> {
         random_shots(shots)?;
     }
     if report.is_as_expected() { Ok(()) } else { Err("an extreme is worse than stated: see the table".to_owned()) }
+}
+
+/// `measure`.
+pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
+    let table = load_table(&arguments.table)?;
+    let mut say = |what: &str| eprintln!("{what}");
+    let asked = arguments.tolerance.map(|tolerance| Accuracy {
+        tolerance,
+        horizon: arguments.horizon.unwrap_or(Horizon::Seconds(arguments.seconds)),
+    });
+    let plan = Plan::new(arguments.quick, arguments.seconds, asked);
+    let (problem, outcomes) = measure::run(&table, &plan, &mut say)?;
+    if let Some(path) = &arguments.json {
+        let told = measure::report::json(&problem, &outcomes);
+        write(path, &format!("{told:#}\n"))?;
+    }
+    if let Some(path) = &arguments.svg {
+        write(path, &measure::plot::svg(&problem.name, &outcomes)?)?;
+    }
+    print(&measure::report::text(&problem, &outcomes))?;
+    let Some(accuracy) = asked else { return Ok(()) };
+    let chosen = &outcomes[measure::front::choose(&outcomes, &problem, &accuracy)?];
+    let cost = chosen.cost.map_or(0.0, |cost| cost.median);
+    print(&format!(
+        "{} at {} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second.",
+        chosen.name, chosen.setting
+    ))
+}
+
+fn write(path: &Path, text: &str) -> Result<(), String> {
+    std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 /// Plays random shots on all cores, and tells what became of them: an error if one was lost, or nearly.

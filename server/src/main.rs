@@ -8,6 +8,7 @@ use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
 use shared::physics::motion::Motion;
+use shared::table::Horizon;
 use starball_server::{Config, load_table};
 use tokio::net::TcpListener;
 use tracing_subscriber::EnvFilter;
@@ -32,6 +33,9 @@ enum Command {
     /// Checks the physics at its extremes with each motion model and prints what passes and what the limits are, as a table in
     /// Markdown. The exit status tells whether all is as stated.
     Extremes(Extremes),
+    /// Measures what each motion model and step size costs on a table, and how far off it is, against a reference with twice
+    /// the digits of f64; tells which settings are worth having.
+    Measure(Measure),
 }
 
 #[derive(Debug, Args)]
@@ -58,6 +62,30 @@ struct Extremes {
     /// Plays so many random shots on Classic besides, exactly and with flippers moving: none may be lost.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=1_000_000_000))]
     shots: u64,
+}
+
+#[derive(Debug, Args)]
+struct Measure {
+    /// A shipped table's name, or a file with a table or a bare scene.
+    table: String,
+    /// Ends within a minute: fewer settings, shots and rounds.
+    #[arg(long)]
+    quick: bool,
+    /// World time to follow, seconds.
+    #[arg(long, default_value_t = 10.0, value_parser = measured_seconds, allow_negative_numbers = true)]
+    seconds: f64,
+    /// What counts as a departure: a length such as 0.1mm. Given, the cheapest setting that keeps it is named.
+    #[arg(long, value_name = "LENGTH", value_parser = shared::table::parse_tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
+    /// For how long the tolerance is to be kept: 3s, or 10bounces.
+    #[arg(long, value_name = "TIME", requires = "tolerance", allow_hyphen_values = true)]
+    horizon: Option<Horizon>,
+    /// Writes everything as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Draws cost against error.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -100,11 +128,19 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
+fn measured_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if (0.001..=1000.0).contains(&seconds) => Ok(seconds),
+        _ => Err("a number of seconds from 0.001 to 1000 would be right".to_owned()),
+    }
+}
+
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
         Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
         Some(Command::Extremes(arguments)) => commands::extremes(arguments.shots),
+        Some(Command::Measure(arguments)) => commands::measure(&arguments),
         None => serve(&arguments.serve),
     };
     match outcome {

@@ -95,7 +95,7 @@ pub fn ladder(scene: &Scene, quick: bool) -> Vec<Setting> {
 }
 
 /// Ticks after which a run looks at the clock.
-const TICKS_BETWEEN_LOOKS: u64 = 4096;
+const TICKS_BETWEEN_LOOKS: u64 = 256;
 
 impl Contender for Setting {
     fn name(&self) -> String {

@@ -1,7 +1,86 @@
 //! `measure`: what a table's speed costs in accuracy, and its accuracy in speed.
+//!
+//! 1. [`problem`]: the table's balls, or shots on it, each with its [`reference`](mod@reference) of twice the digits of f64.
+//! 2. [`contender`]: every motion model at a ladder of step sizes plays them, as may other engines.
+//! 3. [`outcome`]: their errors at the reference's own moments, and what they cost, timed in turns.
+//! 4. [`front`]: which of them are worth having, and the cheapest that keeps a tolerance.
+//! 5. [`report`] and [`plot`]: as text, JSON and SVG.
+
+use std::time::Duration;
+
+use shared::table::{Accuracy, Horizon, Table};
+
+use contender::{Contender, ladder};
+use outcome::{Effort, Outcome, measure};
+use problem::Problem;
+use reference::Extent;
 
 pub mod contender;
+pub mod front;
+pub mod outcome;
+pub mod plot;
 pub mod polynomial;
+pub mod problem;
 pub mod real;
 pub mod reference;
+pub mod report;
 pub mod trajectory;
+
+/// How much is measured.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plan {
+    /// How far the reference goes.
+    pub extent: Extent,
+    /// What counts as a departure, m.
+    pub tolerance: f64,
+    /// Shots on a played table.
+    pub shots: usize,
+    /// Of the timing.
+    pub effort: Effort,
+    /// Fewer settings.
+    pub quick: bool,
+}
+
+/// A departure that nobody would see, m.
+const TOLERANCE: f64 = 1e-4;
+/// Impacts after which a reference ends: more than numbers of 53 bits can follow on most tables.
+const MOST_BOUNCES: usize = 300;
+
+impl Plan {
+    /// A plan for a minute, or for as long as it takes.
+    pub fn new(quick: bool, seconds: f64, asked: Option<Accuracy>) -> Self {
+        let extent = match asked.map(|accuracy| accuracy.horizon) {
+            Some(Horizon::Seconds(horizon)) => Extent { seconds: seconds.max(horizon), bounces: MOST_BOUNCES },
+            // As long as it takes to see so many.
+            Some(Horizon::Bounces(bounces)) => {
+                Extent { seconds: LONGEST, bounces: (bounces as usize).max(MOST_BOUNCES) }
+            }
+            None => Extent { seconds, bounces: MOST_BOUNCES },
+        };
+        let second = Duration::from_secs(1);
+        let effort = if quick {
+            Effort { rounds: 3, patience: second, budget: 15 * second }
+        } else {
+            Effort { rounds: 9, patience: 20 * second, budget: 300 * second }
+        };
+        let tolerance = asked.map_or(TOLERANCE, |accuracy| accuracy.tolerance);
+        Self { extent, tolerance, shots: if quick { 12 } else { 40 }, effort, quick }
+    }
+}
+
+/// Longest time for which a given number of impacts is waited for, seconds.
+const LONGEST: f64 = 60.0;
+
+/// Measures a table.
+///
+/// # Errors
+/// If there is nothing in it to measure.
+pub fn run(table: &Table, plan: &Plan, say: &mut dyn FnMut(&str)) -> Result<(Problem, Vec<Outcome>), String> {
+    say(&format!("{}: the reference", table.name));
+    let problem = Problem::of(table, plan.extent, plan.tolerance, plan.shots)?;
+    let settings = ladder(&table.scene, plan.quick);
+    let contenders: Vec<Box<dyn Contender>> =
+        settings.into_iter().map(|setting| Box::new(setting) as Box<dyn Contender>).collect();
+    let outcomes = measure(&problem, &contenders, plan.effort, say);
+    Ok((problem, outcomes))
+}

@@ -4,6 +4,7 @@ use glam::DVec2;
 use shared::physics::scene::{Collider, Role, Scene};
 use shared::physics::shapes::Shape;
 
+use super::polynomial::{Refinement, roots};
 use super::real::{Real, Vector, Wide};
 use super::reference::is_present;
 
@@ -143,21 +144,21 @@ fn is_target(collider: &Collider) -> bool {
 /// by its radius.
 fn crosses(piece: &Piece, length: f64, shape: &Shape) -> bool {
     let at = |t: f64| piece.position + (piece.velocity + piece.acceleration * (0.5 * t)) * t;
-    let (from, to) = (at(0.0), at(length));
     match shape {
         Shape::Segment(segment) if !segment.one_way => {
-            let (a, b) = (segment.height(from), segment.height(to));
-            if (a > 0.0) == (b > 0.0) || a == 0.0 || b == 0.0 {
-                return false;
-            }
-            // The chord is close enough: what matters is whether it is between the ends.
-            let place = from + (to - from) * (a / (a - b));
-            let along = segment.along.dot(place - segment.a);
-            along > 0.0 && along < segment.length
+            let c = [
+                segment.height(piece.position),
+                segment.normal.dot(piece.velocity),
+                0.5 * segment.normal.dot(piece.acceleration),
+            ];
+            roots(&c, 0.0, length, Refinement::FULL, &mut 0).into_iter().any(|t| {
+                let along = segment.along.dot(at(t) - segment.a);
+                along > 0.0 && along < segment.length
+            })
         }
         Shape::Arc(arc) if arc.radius > 0.0 && arc.span.is_none() => {
             let outside = |p: DVec2| (p - arc.center).length() > arc.radius;
-            outside(from) != outside(to)
+            outside(at(0.0)) != outside(at(length))
         }
         _ => false,
     }

@@ -1,6 +1,7 @@
 //! Tables: the written form ([`format`](mod@format)) becomes a checked [`Table`], with errors that name file, line,
 //! element and field. After the check no function asks again.
 
+mod accuracy;
 mod check;
 mod error;
 pub mod format;
@@ -17,6 +18,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 pub(crate) use check::{is_printable, unprintable};
+pub use accuracy::{Accuracy, Horizon, parse_tolerance};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};

@@ -251,8 +251,11 @@ impl<'a, R: Real> Solver<'a, R> {
         loop {
             // 1. The first thing that happens to any ball.
             let Some((time, ball, with_ball)) = self.first() else {
-                let ending = if self.bodies.iter().any(|body| body.present) { Ending::Time } else { Ending::Gone };
-                return self.ended(extent.seconds, ending);
+                if self.bodies.iter().any(|body| body.present) {
+                    return self.ended(extent.seconds, Ending::Time);
+                }
+                let last = self.solution.lost.iter().flatten().map(|lost| lost.to_f64()).fold(0.0, f64::max);
+                return self.ended(last, Ending::Gone);
             };
             // 2. Far enough?
             if time.to_f64() > extent.seconds {
