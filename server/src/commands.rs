@@ -69,15 +69,24 @@ pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
         horizon: arguments.horizon.unwrap_or(Horizon::Seconds(arguments.seconds)),
     });
     let plan = Plan::new(arguments.quick, arguments.seconds, asked);
+    if arguments.needs {
+        let problem = measure::problem(&table, &plan, &mut say)?;
+        return print(&measure::needs::text(&problem, plan.effort.rounds, &mut say)?);
+    }
     let (problem, outcomes) = measure::run(&table, &plan, &mut say)?;
+    print(&measure::report::text(&problem, &outcomes))?;
+    let mut told = measure::report::json(&problem, &outcomes);
+    if asked.is_none() {
+        let further = measure::further(&table, &problem, &plan, &mut say)?;
+        print(&further.0)?;
+        told["further"] = further.1;
+    }
     if let Some(path) = &arguments.json {
-        let told = measure::report::json(&problem, &outcomes);
         write(path, &format!("{told:#}\n"))?;
     }
     if let Some(path) = &arguments.svg {
         write(path, &measure::plot::svg(&problem.name, &outcomes)?)?;
     }
-    print(&measure::report::text(&problem, &outcomes))?;
     let Some(accuracy) = asked else { return Ok(()) };
     let chosen = &outcomes[measure::front::choose(&outcomes, &problem, &accuracy)?];
     let cost = chosen.cost.map_or(0.0, |cost| cost.median);

@@ -80,6 +80,9 @@ struct Measure {
     /// For how long the tolerance is to be kept: 3s, or 10bounces.
     #[arg(long, value_name = "TIME", requires = "tolerance", allow_hyphen_values = true)]
     horizon: Option<Horizon>,
+    /// Tells what the table needs of the physics, and what each need costs, and nothing else.
+    #[arg(long, conflicts_with_all = ["tolerance", "json", "svg"])]
+    needs: bool,
     /// Writes everything as JSON.
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,

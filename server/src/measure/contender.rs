@@ -88,7 +88,8 @@ pub fn ladder(scene: &Scene, quick: bool) -> Vec<Setting> {
         let rates = RATES.iter().filter(|&&rate| !quick || [60, 240, 1000, 4000, 16_000].contains(&rate));
         settings.extend(rates.map(|&rate| Setting::of(motion, rate)));
         if motion == Motion::Pixel {
-            settings.extend(PIXELS.map(|share| Setting { pixel: Some(share * scene.pixel), ..Setting::of(motion, 1000) }));
+            settings
+                .extend(PIXELS.map(|share| Setting { pixel: Some(share * scene.pixel), ..Setting::of(motion, 1000) }));
         }
     }
     settings
@@ -144,8 +145,12 @@ impl Contender for Setting {
             for ball in &world.state().balls {
                 let (flight, pieces) = (ball.flight, &mut told.balls[ball.id as usize]);
                 let start = time(flight.start);
-                let piece =
-                    Piece { start, position: flight.position, velocity: flight.velocity, acceleration: flight.acceleration };
+                let piece = Piece {
+                    start,
+                    position: flight.position,
+                    velocity: flight.velocity,
+                    acceleration: flight.acceleration,
+                };
                 match pieces.last_mut() {
                     Some(last) if last.start == start => *last = piece,
                     Some(last) if last.start > start => {}

@@ -20,9 +20,7 @@ fn dominates(one: &Outcome, other: &Outcome) -> bool {
         && errors().all(|(a, b)| no_worse(a, b))
         && one.bounces() >= other.bounces()
         && !one.loses_balls();
-    let is_better = cost.high < others.low
-        || errors().any(|(a, b)| better(a, b))
-        || one.bounces() > other.bounces();
+    let is_better = cost.high < others.low || errors().any(|(a, b)| better(a, b)) || one.bounces() > other.bounces();
     is_no_worse && is_better
 }
 

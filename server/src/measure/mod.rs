@@ -4,10 +4,12 @@
 //! 2. [`contender`]: every motion model at a ladder of step sizes plays them, as may other engines.
 //! 3. [`outcome`]: their errors at the reference's own moments, and what they cost, timed in turns.
 //! 4. [`front`]: which of them are worth having, and the cheapest that keeps a tolerance.
-//! 5. [`report`] and [`plot`]: as text, JSON and SVG.
+//! 5. [`axes`], [`loses`] and [`statistics`]: root tolerance, f32 and snapshots; where exact loses; whole games.
+//! 6. [`report`] and [`plot`]: as text, JSON and SVG.
 
 use std::time::Duration;
 
+use serde_json::Value;
 use shared::table::{Accuracy, Horizon, Table};
 
 use contender::{Contender, ladder};
@@ -15,8 +17,11 @@ use outcome::{Effort, Outcome, measure};
 use problem::Problem;
 use reference::Extent;
 
+pub mod axes;
 pub mod contender;
 pub mod front;
+pub mod loses;
+pub mod needs;
 pub mod outcome;
 pub mod plot;
 pub mod polynomial;
@@ -24,6 +29,7 @@ pub mod problem;
 pub mod real;
 pub mod reference;
 pub mod report;
+pub mod statistics;
 pub mod trajectory;
 
 /// How much is measured.
@@ -35,6 +41,8 @@ pub struct Plan {
     pub tolerance: f64,
     /// Shots on a played table.
     pub shots: usize,
+    /// Whole games of a played table, with each setting.
+    pub games: usize,
     /// Of the timing.
     pub effort: Effort,
     /// Fewer settings.
@@ -64,23 +72,67 @@ impl Plan {
             Effort { rounds: 9, patience: 20 * second, budget: 300 * second }
         };
         let tolerance = asked.map_or(TOLERANCE, |accuracy| accuracy.tolerance);
-        Self { extent, tolerance, shots: if quick { 12 } else { 40 }, effort, quick }
+        Self {
+            extent,
+            tolerance,
+            shots: if quick { 12 } else { 40 },
+            games: if quick { 20 } else { 200 },
+            effort,
+            quick,
+        }
     }
 }
 
 /// Longest time for which a given number of impacts is waited for, seconds.
 const LONGEST: f64 = 60.0;
 
-/// Measures a table.
+/// What is to be measured of a table.
+///
+/// # Errors
+/// If there is nothing in it to measure.
+pub fn problem(table: &Table, plan: &Plan, say: &mut dyn FnMut(&str)) -> Result<Problem, String> {
+    say(&format!("{}: the reference", table.name));
+    Problem::of(table, plan.extent, plan.tolerance, plan.shots)
+}
+
+/// Measures a table: every setting of the ladder.
 ///
 /// # Errors
 /// If there is nothing in it to measure.
 pub fn run(table: &Table, plan: &Plan, say: &mut dyn FnMut(&str)) -> Result<(Problem, Vec<Outcome>), String> {
-    say(&format!("{}: the reference", table.name));
-    let problem = Problem::of(table, plan.extent, plan.tolerance, plan.shots)?;
+    let problem = problem(table, plan, say)?;
     let settings = ladder(&table.scene, plan.quick);
     let contenders: Vec<Box<dyn Contender>> =
         settings.into_iter().map(|setting| Box::new(setting) as Box<dyn Contender>).collect();
     let outcomes = measure(&problem, &contenders, plan.effort, say);
     Ok((problem, outcomes))
+}
+
+/// What else there is to say: the arithmetic and the snapshots, where exact loses, and whole games of a played table. As text
+/// and as JSON.
+///
+/// # Errors
+/// If a scene of these cannot be read: a bug.
+pub fn further(
+    table: &Table,
+    problem: &Problem,
+    plan: &Plan,
+    say: &mut dyn FnMut(&str),
+) -> Result<(String, Value), String> {
+    let rounds = plan.effort.rounds;
+    let (arithmetic, snapshots) = (axes::arithmetic(problem, rounds, say), axes::snapshots(problem));
+    let mut text = axes::text(&arithmetic, &snapshots);
+    let mut told = axes::json(&arithmetic, &snapshots);
+    let mut compared = loses::compare(rounds, plan.effort.patience, say)?;
+    if table.has_rules {
+        compared.extend(loses::flippers(table, rounds, say));
+    }
+    text += &format!("\n{}", loses::text(&compared));
+    told["where_exact_loses"] = loses::json(&compared);
+    if table.has_rules {
+        let games = statistics::games(table, plan.games, say)?;
+        text += &format!("\n{}", statistics::text(&games));
+        told["games"] = statistics::json(&games);
+    }
+    Ok((text, told))
 }

@@ -34,7 +34,8 @@ pub struct Fidelity {
 }
 
 impl Fidelity {
-    fn of(case: &Case, told: &Trajectory, tolerance: f64) -> Self {
+    /// Compares what was told with the reference.
+    pub fn of(case: &Case, told: &Trajectory, tolerance: f64) -> Self {
         let truth = &case.truth;
         let mut errors = [None; 3];
         let (mut departed, mut bounces) = (None, 0);
@@ -175,7 +176,12 @@ pub struct Effort {
 }
 
 /// Lets every contender play the problem, and times them in turns, round by round, so that a busy machine slows all alike.
-pub fn measure(problem: &Problem, contenders: &[Box<dyn Contender>], effort: Effort, say: &mut dyn FnMut(&str)) -> Vec<Outcome> {
+pub fn measure(
+    problem: &Problem,
+    contenders: &[Box<dyn Contender>],
+    effort: Effort,
+    say: &mut dyn FnMut(&str),
+) -> Vec<Outcome> {
     let mut outcomes: Vec<Outcome> = Vec::with_capacity(contenders.len());
     for contender in contenders {
         say(&format!("{}: {} at {}", problem.name, contender.name(), contender.setting()));

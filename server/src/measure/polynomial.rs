@@ -120,7 +120,10 @@ mod tests {
 
     #[test]
     fn a_touch_and_an_empty_range_have_none() {
-        assert!(all::<f64>(&[1.0, -2.0, 1.0], 0.0, 3.0).len() <= 1, "a double root is no change of sign, but for rounding");
+        assert!(
+            all::<f64>(&[1.0, -2.0, 1.0], 0.0, 3.0).len() <= 1,
+            "a double root is no change of sign, but for rounding"
+        );
         assert!(all::<f64>(&[1.0, 0.0, 1.0], -3.0, 3.0).is_empty());
         assert!(all::<f64>(&[-1.0, 1.0], 2.0, 3.0).is_empty());
         assert!(all::<f64>(&[0.0, 0.0, 0.0], 0.0, 1.0).is_empty());

@@ -63,8 +63,11 @@ impl Problem {
     /// If there is nothing in it to measure.
     pub fn of(table: &Table, extent: Extent, tolerance: f64, shots: usize) -> Result<Self, String> {
         let scenes = if table.has_rules { shots_of(table, shots) } else { vec![Scene::clone(&table.scene)] };
-        let cases: Vec<Case> =
-            scenes.into_iter().map(|scene| Case::new(scene, extent, tolerance)).filter(|case| case.truth.end > 0.0).collect();
+        let cases: Vec<Case> = scenes
+            .into_iter()
+            .map(|scene| Case::new(scene, extent, tolerance))
+            .filter(|case| case.truth.end > 0.0)
+            .collect();
         if cases.is_empty() {
             return Err(format!("{:?}: no ball of it flies freely, so there is nothing to compare", table.name));
         }

@@ -74,7 +74,11 @@ fn problem_text(problem: &Problem) -> String {
     for (ending, what) in endings {
         let count = cases.iter().filter(|case| case.truth.ending == ending).count();
         if count > 0 {
-            let _ = writeln!(out, "It ends {what}{}.", if cases.len() > 1 { format!(": {count} times") } else { String::new() });
+            let _ = writeln!(
+                out,
+                "It ends {what}{}.",
+                if cases.len() > 1 { format!(": {count} times") } else { String::new() }
+            );
         }
     }
     let limit = |bits: &str, limits: Vec<(f64, usize)>| {
@@ -99,17 +103,18 @@ fn header() -> String {
 }
 
 fn line(outcome: &Outcome, verdict: &str) -> String {
-    let cost = outcome.cost.map_or_else(
-        || "? | ?".to_owned(),
-        |cost| format!("{:.0} | {:.0} to {:.0}", cost.median, cost.low, cost.high),
-    );
+    let cost = outcome
+        .cost
+        .map_or_else(|| "? | ?".to_owned(), |cost| format!("{:.0} | {:.0} to {:.0}", cost.median, cost.low, cost.high));
     if outcome.cases.is_empty() {
         return format!("| {} | {} | {cost} | | | | | | | | | {verdict} |\n", outcome.name, outcome.setting);
     }
     let errors = [0, 1, 2].map(|place| error(outcome.error(place))).join(" | ");
     let energy = if outcome.finite() {
         outcome.energy().map_or("-".to_owned(), |energy| format!("{energy:.0e}"))
-    } else { "not finite".to_owned() };
+    } else {
+        "not finite".to_owned()
+    };
     format!(
         "| {} | {} | {cost} | {errors} | {} | {:.2} | {energy} | {} | {} | {verdict} |\n",
         outcome.name,

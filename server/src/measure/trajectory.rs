@@ -64,9 +64,10 @@ impl Trajectory {
 
     /// Whether any number in it is not finite.
     pub fn is_finite(&self) -> bool {
-        self.balls.iter().flatten().all(|piece| {
-            piece.position.is_finite() && piece.velocity.is_finite() && piece.acceleration.is_finite()
-        })
+        self.balls
+            .iter()
+            .flatten()
+            .all(|piece| piece.position.is_finite() && piece.velocity.is_finite() && piece.acceleration.is_finite())
     }
 
     /// How many times the centre of a ball came through what stands still, in scenes of one floor.

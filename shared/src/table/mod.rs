@@ -17,8 +17,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-pub(crate) use check::{is_printable, unprintable};
 pub use accuracy::{Accuracy, Horizon, parse_tolerance};
+pub(crate) use check::{is_printable, unprintable};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};

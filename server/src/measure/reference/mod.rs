@@ -282,7 +282,9 @@ impl<'a, R: Real> Solver<'a, R> {
         let mut first: Option<(R, usize, bool)> = None;
         for (place, body) in self.bodies.iter().enumerate().filter(|(_, body)| body.present) {
             for (time, with_ball) in
-                [body.next.map(|(time, _)| (time, false)), body.meets.map(|(time, _)| (time, true))].into_iter().flatten()
+                [body.next.map(|(time, _)| (time, false)), body.meets.map(|(time, _)| (time, true))]
+                    .into_iter()
+                    .flatten()
             {
                 if first.is_none_or(|(earliest, ..)| time < earliest) {
                     first = Some((time, place, with_ball));

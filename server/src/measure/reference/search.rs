@@ -95,8 +95,7 @@ impl<R: Real> Search<'_, R> {
 
     /// The box around a piece of the flight.
     fn around(&self, from: f64, to: f64) -> Bounds {
-        let (p, v, g) =
-            (self.flight.position.to_f64(), self.flight.velocity.to_f64(), self.flight.gravity.to_f64());
+        let (p, v, g) = (self.flight.position.to_f64(), self.flight.velocity.to_f64(), self.flight.gravity.to_f64());
         let at = |t: f64| p + (v + g * (0.5 * t)) * t;
         let (mut low, mut high) = (at(from).min(at(to)), at(from).max(at(to)));
         // A parabola bulges out of the box of its ends by at most an eighth of its acceleration times the time squared.
