@@ -50,6 +50,11 @@ pub(crate) enum SessionError {
     /// The table is not what its digest says.
     #[error("the server's table does not have the digest that the server says")]
     Digest,
+    /// The table asks for an accuracy, and the server has not said what that means.
+    #[error(
+        "the server's table still asks for an accuracy; a server resolves that into a motion model and a tick rate"
+    )]
+    Unresolved,
     /// The server would compute other trajectories.
     #[error("the server runs physics version {theirs}, this game {PHYSICS_VERSION}: use the same release on both")]
     Physics { theirs: u32 },
@@ -68,7 +73,7 @@ impl SessionError {
     /// In as many words as a banner has room for.
     pub(crate) fn headline(&self) -> &str {
         match self {
-            Self::Table(_) | Self::Digest => "UNREADABLE TABLE",
+            Self::Table(_) | Self::Digest | Self::Unresolved => "UNREADABLE TABLE",
             Self::Physics { .. } => "ANOTHER RELEASE THERE",
             Self::State(_) | Self::Greeting => "GARBLED MESSAGES",
             Self::Bye(reason) => reason,
@@ -129,6 +134,10 @@ impl Session {
         let table = Table::parse("the server's table", &welcome.table)?;
         if table.digest != welcome.table_digest {
             return Err(SessionError::Digest);
+        }
+        // Two machines would choose differently.
+        if table.accuracy.is_some() {
+            return Err(SessionError::Unresolved);
         }
         let table = Arc::new(table);
         Ok(Self {

@@ -13,7 +13,7 @@ use shared::physics::motion::Motion;
 use shared::table::{Accuracy, Horizon};
 use starball_server::measure::{self, Plan};
 use starball_server::simulate::{self, Player, Simulation};
-use starball_server::{load_table, load_text};
+use starball_server::{load_table, load_text, read_table};
 
 use crate::{Measure, Simulate};
 
@@ -62,12 +62,13 @@ pub(crate) fn extremes(shots: u64) -> Result<(), String> {
 
 /// `measure`.
 pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
-    let table = load_table(&arguments.table)?;
+    let table = read_table(&arguments.table)?;
     let mut say = |what: &str| eprintln!("{what}");
-    let asked = arguments.tolerance.map(|tolerance| Accuracy {
+    let given = arguments.tolerance.map(|tolerance| Accuracy {
         tolerance,
         horizon: arguments.horizon.unwrap_or(Horizon::Seconds(arguments.seconds)),
     });
+    let asked = given.or(table.accuracy);
     let plan = Plan::new(arguments.quick, arguments.seconds, asked);
     if arguments.needs {
         let problem = measure::problem(&table, &plan, &mut say)?;
@@ -88,12 +89,7 @@ pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
         write(path, &measure::plot::svg(&problem.name, &outcomes)?)?;
     }
     let Some(accuracy) = asked else { return Ok(()) };
-    let chosen = &outcomes[measure::front::choose(&outcomes, &problem, &accuracy)?];
-    let cost = chosen.cost.map_or(0.0, |cost| cost.median);
-    print(&format!(
-        "{} at {} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second.",
-        chosen.name, chosen.setting
-    ))
+    print(&measure::front::sentence(&outcomes, &problem, &accuracy)?)
 }
 
 fn write(path: &Path, text: &str) -> Result<(), String> {

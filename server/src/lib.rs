@@ -28,7 +28,7 @@ use tokio::task::JoinSet;
 pub use account::Account;
 pub use config::Config;
 pub use session::{SessionState, is_legal};
-pub use tables::{load_table, load_text};
+pub use tables::{load_table, load_text, read_table};
 
 /// Shared frames that a slow client may be behind before it loses some: one second's.
 const FRAMES_BEHIND: usize = 64;

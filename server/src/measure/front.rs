@@ -60,6 +60,17 @@ fn keeps(outcome: &Outcome, problem: &Problem, horizon: Horizon) -> bool {
         })
 }
 
+/// Which setting is the cheapest that keeps the accuracy, in a sentence.
+///
+/// # Errors
+/// If none does: what comes closest.
+pub fn sentence(outcomes: &[Outcome], problem: &Problem, accuracy: &Accuracy) -> Result<String, String> {
+    let chosen = &outcomes[choose(outcomes, problem, accuracy)?];
+    let cost = chosen.cost.map_or(0.0, |cost| cost.median);
+    let (name, setting) = (&chosen.name, &chosen.setting);
+    Ok(format!("{name} at {setting} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second."))
+}
+
 /// The cheapest of the outcomes that keeps the accuracy which the problem was measured with.
 ///
 /// # Errors

@@ -12,7 +12,7 @@ use std::time::Duration;
 use serde_json::Value;
 use shared::table::{Accuracy, Horizon, Table};
 
-use contender::{Contender, ladder};
+use contender::{Contender, Setting, ladder};
 use outcome::{Effort, Outcome, measure};
 use problem::Problem;
 use reference::Extent;
@@ -106,6 +106,25 @@ pub fn run(table: &Table, plan: &Plan, say: &mut dyn FnMut(&str)) -> Result<(Pro
         settings.into_iter().map(|setting| Box::new(setting) as Box<dyn Contender>).collect();
     let outcomes = measure(&problem, &contenders, plan.effort, say);
     Ok((problem, outcomes))
+}
+
+/// The table with the cheapest motion model and tick rate that keep an accuracy as fields of its text, and a sentence that
+/// says which.
+///
+/// # Errors
+/// If none keeps it: what comes closest.
+pub fn resolve(table: &Table, accuracy: &Accuracy) -> Result<(Table, String), String> {
+    let plan = Plan::new(true, 1.0, Some(*accuracy));
+    let problem = problem(table, &plan, &mut |_| ())?;
+    // A table can name a model and a rate; its pixel is its own.
+    let settings: Vec<Setting> =
+        ladder(&table.scene, true).into_iter().filter(|setting| setting.pixel.is_none()).collect();
+    let contenders: Vec<Box<dyn Contender>> =
+        settings.iter().map(|&setting| Box::new(setting) as Box<dyn Contender>).collect();
+    let outcomes = measure(&problem, &contenders, plan.effort, &mut |_| ());
+    let chosen = settings[front::choose(&outcomes, &problem, accuracy)?];
+    let resolved = table.resolved(chosen.motion, chosen.tick_hz).map_err(|error| error.to_string())?;
+    Ok((resolved, front::sentence(&outcomes, &problem, accuracy)?))
 }
 
 /// What else there is to say: the arithmetic and the snapshots, where exact loses, and whole games of a played table. As text

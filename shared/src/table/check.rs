@@ -75,6 +75,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
         source: source.to_owned(),
         digest: digest(source),
         has_rules: true,
+        accuracy: file.accuracy,
         scene: Arc::new(scene),
         ball_start: vector(file.ball.start),
         rules,
@@ -245,12 +246,28 @@ impl<'a> Context<'a> {
         Ok(())
     }
 
+    /// An accuracy that can be asked for, and nothing that it would decide.
+    pub(super) fn accuracy(&self) -> Result<(), TableError> {
+        let Some(accuracy) = self.file.accuracy else { return Ok(()) };
+        if let Some(problem) = accuracy.problem() {
+            return Err(self.error(Spot::Table, Some("accuracy"), problem));
+        }
+        for field in ["motion", "tick_hz"] {
+            if line_of(self.source, &[Step::Field(field)]) > 0 {
+                let problem = "`accuracy` decides it; either of them would be right".to_owned();
+                return Err(self.error(Spot::Table, Some(field), problem));
+            }
+        }
+        Ok(())
+    }
+
     fn table_numbers(&self) -> Result<(), TableError> {
         let file = self.file;
         self.printable(Spot::Table, Some("name"), &file.name)?;
         for length in [file.size.0, file.size.1] {
             self.in_range(Spot::Table, "size", length, 1e-3, 1e3, "(0.514, 1.067) metres")?;
         }
+        self.accuracy()?;
         self.in_range(Spot::Table, "tick_hz", f64::from(file.tick_hz), 1.0, 1e6, "1000")?;
         self.in_range(Spot::Table, "pixel", file.pixel, 1e-6, 1.0, "0.001 m")?;
         for pull in [file.gravity.0, file.gravity.1] {

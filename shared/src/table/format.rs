@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::accuracy::Accuracy;
 use super::unique;
 use crate::physics::motion::Motion;
 
@@ -27,6 +28,9 @@ pub struct TableFile {
     pub name: String,
     /// Width and height of the playfield.
     pub size: Point,
+    /// Asked for instead of a motion model and a tick rate.
+    #[serde(default)]
+    pub accuracy: Option<Accuracy>,
     /// World ticks a second.
     #[serde(default = "default_tick_hz")]
     pub tick_hz: u32,

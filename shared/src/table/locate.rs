@@ -29,6 +29,14 @@ pub(crate) fn line_of(source: &str, way: &[Step<'_>]) -> usize {
     found.map_or(0, |at| line_at(&masked, at))
 }
 
+/// Where a field of the table stands, from its name to the end of its value.
+pub(super) fn field_range(source: &str, field: &str) -> Option<Range<usize>> {
+    let masked = mask(source);
+    let (start, value) = descend(source, &masked, table(&masked)..masked.len(), Step::Field(field))?;
+    let end = value.start + masked[value].trim_ascii_end().len();
+    Some(start..end)
+}
+
 /// The name of the innermost element around a place in the text: what a complaint of the parser is about.
 pub(super) fn element_at(source: &str, line: usize, column: usize) -> Option<String> {
     let masked = mask(source);

@@ -49,6 +49,9 @@ pub struct Table {
     pub source: String,
     /// Digest of that text.
     pub digest: u64,
+    /// What it asks for and has not got yet: its motion model and tick rate are still those of any table. Such a table is
+    /// neither served nor joined; see [`Self::resolved`].
+    pub accuracy: Option<Accuracy>,
     /// Whether it is played by rules; a bare scene has none.
     pub has_rules: bool,
     /// The written form, for drawing.
@@ -96,6 +99,20 @@ impl Table {
             table.digest = digest_of(&(self.digest, scene.motion, scene.tick_seconds));
         }
         Ok(table)
+    }
+
+    /// The table with the motion model and the tick rate that give the accuracy it asks for, in the place of that: as fields of
+    /// its text, and so in its digest. Whoever gets the text does not ask again, since another machine would choose otherwise.
+    /// A table that asks for none is left as it is.
+    ///
+    /// # Errors
+    /// If the rate is not 1 to 1,000,000 ticks a second.
+    pub fn resolved(&self, motion: Motion, tick_hz: u32) -> Result<Self, TableError> {
+        let range = self.accuracy.and_then(|_| locate::field_range(&self.source, "accuracy"));
+        let Some(range) = range else { return Ok(self.clone()) };
+        let mut source = self.source.clone();
+        source.replace_range(range, &format!("motion: {motion:?}, tick_hz: {tick_hz}"));
+        Self::parse(&self.name, &source)
     }
 
     /// A table that comes with the game; `None` if there is none of that name.

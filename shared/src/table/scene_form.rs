@@ -7,6 +7,7 @@ use std::sync::Arc;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::accuracy::Accuracy;
 use super::check::{Context, MOST_COORDINATE, Spot, digest, read, vector};
 use super::error::TableError;
 use super::format::{
@@ -34,6 +35,9 @@ pub struct SceneFile {
     /// How the next impact of a ball is found.
     #[serde(default)]
     pub motion: Motion,
+    /// Asked for instead of a motion model and a tick rate.
+    #[serde(default)]
+    pub accuracy: Option<Accuracy>,
     /// World ticks a second.
     #[serde(default = "default_tick_hz")]
     pub tick_hz: u32,
@@ -194,6 +198,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
         source: source.to_owned(),
         digest: digest(source),
         has_rules: false,
+        accuracy: scene.accuracy,
         scene: Arc::new(checked),
         ball_start: DVec2::ZERO,
         rules: RuleBook { balls: 0, max_multiplier: 1, rules: Vec::new(), messages: Vec::new() },
@@ -300,6 +305,7 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
         physics: PHYSICS_VERSION,
         name: scene.name.clone(),
         size: (size.x, size.y),
+        accuracy: scene.accuracy,
         tick_hz: scene.tick_hz,
         motion: scene.motion,
         pixel: scene.pixel,
@@ -317,6 +323,7 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
 fn check_numbers(context: &Context<'_>, scene: &SceneFile) -> Result<(), TableError> {
     let table = Spot::Table;
     context.printable(table, Some("name"), &scene.name)?;
+    context.accuracy()?;
     context.in_range(table, "tick_hz", f64::from(scene.tick_hz), 1.0, 1e6, "1000")?;
     context.in_range(table, "pixel", scene.pixel, 1e-15, 1e12, "0.001 m")?;
     for pull in [scene.gravity.0, scene.gravity.1] {
