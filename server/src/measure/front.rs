@@ -18,9 +18,9 @@ fn dominates(one: &Outcome, other: &Outcome) -> bool {
     let errors = || (0..3).filter_map(|place| one.error(place).zip(other.error(place)));
     let is_no_worse = cost.median <= others.median
         && errors().all(|(a, b)| no_worse(a, b))
-        && one.bounces() >= other.bounces()
+        && one.earned() >= other.earned()
         && !one.loses_balls();
-    let is_better = cost.high < others.low || errors().any(|(a, b)| better(a, b)) || one.bounces() > other.bounces();
+    let is_better = cost.high < others.low || errors().any(|(a, b)| better(a, b)) || one.earned() > other.earned();
     is_no_worse && is_better
 }
 

@@ -21,6 +21,8 @@ pub struct Fidelity {
     pub seconds: f64,
     /// Impacts before it.
     pub bounces: usize,
+    /// Of those, how many that any arithmetic of 53 bits keeps: what lies beyond is luck.
+    pub earned: usize,
     /// Whether there was none up to the reference's end.
     pub to_the_end: bool,
     /// Where energy should stay the most that it was off; where it should fall the most that an impact added. Shares of it.
@@ -72,6 +74,7 @@ impl Fidelity {
             errors,
             seconds: departed.unwrap_or(truth.end),
             bounces,
+            earned: bounces.min(case.limit.1),
             to_the_end: departed.is_none(),
             energy: match case.energy {
                 Conserved::Kept => Some(energy.drift),
@@ -136,6 +139,11 @@ impl Outcome {
     /// Median over the cases of the impacts before it.
     pub fn bounces(&self) -> f64 {
         Spread::of(self.cases.iter().map(|case| case.bounces as f64).collect()).map_or(0.0, |spread| spread.median)
+    }
+
+    /// Median over the cases of those impacts that are no luck.
+    pub fn earned(&self) -> f64 {
+        Spread::of(self.cases.iter().map(|case| case.earned as f64).collect()).map_or(0.0, |spread| spread.median)
     }
 
     /// The worst over the cases in which it is known what should become of the energy.
@@ -208,6 +216,9 @@ pub fn measure(
     outcomes
 }
 
+/// A round of one contender takes this long at the least, nanoseconds: shorter ones tell of cold caches.
+const LEAST_TIMED: f64 = 3e6;
+
 fn time(
     problem: &Problem,
     contenders: &[Box<dyn Contender>],
@@ -227,13 +238,15 @@ fn time(
                 continue;
             }
             let mut sum = Timed { nanoseconds: 0.0, seconds: 0.0 };
-            for case in &problem.cases {
-                match contender.time(&case.scene, case.truth.end, effort.patience) {
-                    Ok(timed) => {
-                        sum.nanoseconds += timed.nanoseconds;
-                        sum.seconds += timed.seconds;
+            while sum.nanoseconds < LEAST_TIMED && outcome.failed.is_none() {
+                for case in &problem.cases {
+                    match contender.time(&case.scene, case.truth.end, effort.patience) {
+                        Ok(timed) => {
+                            sum.nanoseconds += timed.nanoseconds;
+                            sum.seconds += timed.seconds;
+                        }
+                        Err(why) => outcome.failed = Some(why),
                     }
-                    Err(why) => outcome.failed = Some(why),
                 }
             }
             costs.push(sum.nanoseconds / sum.seconds);
