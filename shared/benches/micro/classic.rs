@@ -16,8 +16,8 @@ pub(crate) fn game() -> Game {
     Game::new(Arc::new(table))
 }
 
-/// Plays with the bot, from the start of a game, until `look` says that it has seen enough. It is shown the game after each
-/// tick, and how many actions there were in that.
+/// Plays with the bot, from the start of a game, until `look` says that it has seen enough. It is shown the game after
+/// each tick, and how many actions there were in that.
 pub(crate) fn play(mut look: impl FnMut(&Game, usize) -> bool) {
     let (mut game, mut bot, mut inputs) = (game(), Bot::new(0, 5), Vec::new());
     for tick in 0..MOST_TICKS {
@@ -37,8 +37,8 @@ pub(crate) fn play(mut look: impl FnMut(&Game, usize) -> bool) {
     panic!("not seen within {MOST_TICKS} ticks");
 }
 
-/// States from which a ball flies on, all else at rest and nobody doing anything, for two ticks: in the first of them nothing
-/// happens, in the second `events` do, all of them bounces.
+/// States from which a ball flies on, all else at rest and nobody doing anything, for two ticks: in the first of them
+/// nothing happens, in the second `events` do, all of them bounces.
 pub(crate) fn flights(count: usize, events: usize) -> Vec<GameState> {
     let mut found = Vec::new();
     // The states two ticks ago and one tick ago; whether the last tick was quiet.

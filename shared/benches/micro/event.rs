@@ -1,5 +1,5 @@
-//! A tick in which one ball bounces once and nothing else happens: the impact, the search for the next one, and the tick around
-//! them (see `tick` for what that costs without).
+//! A tick in which one ball bounces once and nothing else happens: the impact, the search for the next one, and the
+//! tick around them (see `tick` for what that costs without).
 
 use divan::Bencher;
 use shared::physics::{EventKind, World, WorldState};

@@ -3,7 +3,8 @@
 use shared::math::Rng;
 use shared::table::Table;
 
-/// Different inputs of one benchmark: too many for a branch predictor to learn by heart, few enough for the first cache.
+/// Different inputs of one benchmark: too many for a branch predictor to learn by heart, few enough for the first
+/// cache.
 pub(crate) const INPUTS: usize = 256;
 
 /// Tries after which a wanted input is taken not to exist.

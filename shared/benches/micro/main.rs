@@ -6,9 +6,9 @@
 //! - `event`: a tick in which one ball bounces once
 //! - `snapshot`: the game's state to and from the bytes of a frame
 //!
-//! Every number is the time of one call. Calls go through many different inputs in turn, so that the processor cannot learn the
-//! branches of one of them, and each benchmark checks before it begins that all of its inputs are what its name says.
-//! With `--test` each runs once: that is all of the checks and no measurement.
+//! Every number is the time of one call. Calls go through many different inputs in turn, so that the processor cannot
+//! learn the branches of one of them, and each benchmark checks before it begins that all of its inputs are what its
+//! name says. With `--test` each runs once: that is all of the checks and no measurement.
 
 mod classic;
 mod event;

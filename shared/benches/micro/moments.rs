@@ -1,7 +1,7 @@
 //! Single steps of worlds and games from many moments.
 //!
-//! A world that is restored solves its balls' flights anew in its first step, which a running one has done before. So a moment is
-//! a state one tick earlier, and that tick is stepped before the clock runs.
+//! A world that is restored solves its balls' flights anew in its first step, which a running one has done before. So a
+//! moment is a state one tick earlier, and that tick is stepped before the clock runs.
 
 use std::cell::RefCell;
 

@@ -1,5 +1,6 @@
-//! Ticks of worlds that have a moving body and hardly anything else. How a ball meets one is the engine's own business, so whole
-//! ticks are timed: with an impact, in the tick before (the ball is near, the search comes to nothing), and without a ball.
+//! Ticks of worlds that have a moving body and hardly anything else. How a ball meets one is the engine's own business,
+//! so whole ticks are timed: with an impact, in the tick before (the ball is near, the search comes to nothing), and
+//! without a ball.
 
 use std::collections::VecDeque;
 

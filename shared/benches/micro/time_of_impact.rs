@@ -1,7 +1,8 @@
 //! The time of impact of a flight under gravity with one shape.
 //!
-//! Flights are aimed at random points of the box around the shape, since that is what the engine's broad phase lets through: a
-//! `miss` comes through this box and yet does not touch the shape. What is met from inside has flights from all over its inside.
+//! Flights are aimed at random points of the box around the shape, since that is what the engine's broad phase lets
+//! through: a `miss` comes through this box and yet does not touch the shape. What is met from inside has flights from
+//! all over its inside.
 
 use divan::{Bencher, black_box};
 use glam::DVec2;
@@ -172,8 +173,8 @@ mod ball_arc {
 mod ball_ball {
     use super::*;
 
-    /// Times pairs of a flying ball and another one that flies as well, or lies still: seen from each other, their way is
-    /// straight in the first case and curved in the second.
+    /// Times pairs of a flying ball and another one that flies as well, or lies still: seen from each other, their way
+    /// is straight in the first case and curved in the second.
     fn time_pairs(bencher: Bencher<'_, '_>, both_fly: bool, hits: bool) {
         let search = Search::whole();
         let reach = Bounds { low: DVec2::ZERO, high: DVec2::ZERO }.grown(2.0 * RADIUS);
