@@ -93,6 +93,7 @@ fn trajectory(solution: &Solution<f64>) -> Trajectory {
     Trajectory {
         balls: solution.flights.iter().map(|flights| flights.iter().map(piece).collect()).collect(),
         lost: solution.lost.clone(),
+        end: solution.end,
         ..Trajectory::default()
     }
 }

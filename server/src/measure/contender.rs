@@ -116,7 +116,7 @@ impl Contender for Setting {
 
     fn play(&self, scene: &Scene, seconds: f64, patience: Duration) -> Result<Trajectory, String> {
         let mut world = World::new(self.scene(scene));
-        let mut told = Trajectory { lost: vec![None; scene.start.len()], ..Trajectory::default() };
+        let mut told = Trajectory { lost: vec![None; scene.start.len()], end: seconds, ..Trajectory::default() };
         let dt = Wide::of(world.scene().tick_seconds);
         let time = |at: Instant| Wide::of(at.tick as f64) * dt + Wide::of(at.offset);
         for ball in &world.state().balls {

@@ -30,6 +30,8 @@ pub mod real;
 pub mod reference;
 pub mod report;
 pub mod statistics;
+#[cfg(test)]
+mod tests;
 pub mod trajectory;
 
 /// How much is measured.

@@ -40,6 +40,8 @@ pub struct Trajectory {
     pub balls: Vec<Vec<Piece>>,
     /// When each ball was lost, if it was, in seconds since the scene's start.
     pub lost: Vec<Option<f64>>,
+    /// Seconds up to which it was played.
+    pub end: f64,
     /// Balls that left the scene where none should.
     pub escaped: u32,
     /// Whether the pieces are an engine's steps: an impact within one is not told. Then the way is looked at from both of a
@@ -78,10 +80,12 @@ impl Trajectory {
         }
         let solids: Vec<&Collider> = scene.colliders.iter().filter(|c| !is_target(c)).filter(solid).collect();
         let mut count = 0;
-        for pieces in &self.balls {
-            for pair in pieces.windows(2) {
-                let length = (pair[1].start - pair[0].start).to_f64();
-                count += solids.iter().filter(|collider| crosses(&pair[0], length, &collider.shape)).count() as u32;
+        for (pieces, lost) in self.balls.iter().zip(&self.lost) {
+            let end = Wide::of(lost.unwrap_or(self.end));
+            for (place, piece) in pieces.iter().enumerate() {
+                let until = pieces.get(place + 1).map_or(end, |next| next.start);
+                let length = (until - piece.start).to_f64();
+                count += solids.iter().filter(|collider| crosses(piece, length, &collider.shape)).count() as u32;
             }
         }
         count

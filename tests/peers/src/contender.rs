@@ -39,7 +39,8 @@ impl Contender for Entrant {
     fn play(&self, scene: &Scene, seconds: f64, patience: Duration) -> Result<Trajectory, String> {
         let mut world = self.peer.world(scene, self.rate)?;
         let (mut balls, begun) = (Vec::new(), Instant::now());
-        let mut told = Trajectory { lost: vec![None; scene.start.len()], steps: true, ..Trajectory::default() };
+        let mut told =
+            Trajectory { lost: vec![None; scene.start.len()], steps: true, end: seconds, ..Trajectory::default() };
         told.balls.resize(scene.start.len(), Vec::new());
         for step in 0..=self.steps(seconds) {
             if step > 0 {
