@@ -5,14 +5,14 @@ use plotters::prelude::*;
 use super::outcome::Outcome;
 
 const SIZE: (u32, u32) = (960, 600);
-const COLORS: [RGBColor; 6] = [
-    RGBColor(0x9a, 0x9a, 0x9a),
-    RGBColor(0xe0, 0x8e, 0x0b),
-    RGBColor(0x2b, 0x7b, 0xba),
-    RGBColor(0xc0, 0x1f, 0x3a),
-    RGBColor(0x3a, 0x8f, 0x4d),
-    RGBColor(0x7a, 0x4f, 0xa3),
+/// A model has the same color in every plot.
+const MODELS: [(&str, RGBColor); 4] = [
+    ("discrete", RGBColor(0x8a, 0x8a, 0x8a)),
+    ("pixel", RGBColor(0x3a, 0x8f, 0x4d)),
+    ("swept", RGBColor(0xe0, 0x8e, 0x0b)),
+    ("exact", RGBColor(0xc0, 0x1f, 0x3a)),
 ];
+const OTHERS: [RGBColor; 3] = [RGBColor(0x2b, 0x7b, 0xba), RGBColor(0x7a, 0x4f, 0xa3), RGBColor(0x2f, 0x2f, 0x2f)];
 /// What is less is drawn here, m: all of it is rounding.
 const LEAST: f64 = 1e-17;
 /// What is more, or lost, is drawn here, m.
@@ -61,6 +61,8 @@ fn draw(
         .x_label_formatter(&|x| format!("{x:.0e}"))
         .y_label_formatter(&|y| format!("{y:.0e}"))
         .light_line_style(WHITE)
+        .label_style(("sans-serif", 14))
+        .axis_desc_style(("sans-serif", 16))
         .draw()?;
     let mut names: Vec<&str> = Vec::new();
     for (outcome, ..) in points {
@@ -68,14 +70,16 @@ fn draw(
             names.push(&outcome.name);
         }
     }
-    for (name, color) in names.into_iter().zip(COLORS.iter().cycle()) {
+    let mut others = OTHERS.iter().cycle();
+    for name in names {
+        let model = MODELS.iter().find(|(model, _)| *model == name).map(|(_, color)| *color);
+        let color = model.or_else(|| others.next().copied()).unwrap_or(BLACK);
         let mut line: Vec<(u32, f64, f64)> = points
             .iter()
             .filter(|(outcome, ..)| outcome.name == name)
             .map(|(outcome, cost, error)| (outcome.hz, *cost, *error))
             .collect();
         line.sort_by_key(|(hz, ..)| *hz);
-        let color = *color;
         chart
             .draw_series(LineSeries::new(line.iter().map(|(_, cost, error)| (*cost, *error)), color.stroke_width(2)))?
             .label(name)
@@ -85,6 +89,7 @@ fn draw(
     chart
         .configure_series_labels()
         .position(SeriesLabelPosition::UpperRight)
+        .label_font(("sans-serif", 15))
         .background_style(WHITE.mix(0.8))
         .border_style(BLACK.mix(0.3))
         .draw()?;
