@@ -21,6 +21,7 @@ pub mod axes;
 pub mod contender;
 pub mod front;
 pub mod loses;
+pub mod manual;
 pub mod needs;
 pub mod outcome;
 pub mod plot;

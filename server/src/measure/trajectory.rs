@@ -23,7 +23,7 @@ pub struct Piece {
 
 impl Piece {
     /// The way of the ball from the start of the piece to that moment, seconds since the scene's start.
-    fn way(&self, time: Wide) -> DVec2 {
+    pub(super) fn way(&self, time: Wide) -> DVec2 {
         let t = (time - self.start).to_f64();
         (self.velocity + self.acceleration * (0.5 * t)) * t
     }
@@ -147,7 +147,7 @@ fn is_target(collider: &Collider) -> bool {
 
 /// Whether a ball's centre comes through the shape within the piece's first `length` seconds: a ball that bounces stays off it
 /// by its radius.
-fn crosses(piece: &Piece, length: f64, shape: &Shape) -> bool {
+pub(super) fn crosses(piece: &Piece, length: f64, shape: &Shape) -> bool {
     let at = |t: f64| piece.position + (piece.velocity + piece.acceleration * (0.5 * t)) * t;
     match shape {
         Shape::Segment(segment) if !segment.one_way => {
