@@ -62,6 +62,9 @@ pub(crate) fn extremes(shots: u64) -> Result<(), String> {
 
 /// `measure`.
 pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
+    if let (Some(_), Some(path)) = (&arguments.scene, &arguments.svg) {
+        return write(path, &measure::manual::picture()?);
+    }
     let table = read_table(&arguments.table)?;
     let mut say = |what: &str| eprintln!("{what}");
     let given = arguments.tolerance.map(|tolerance| Accuracy {

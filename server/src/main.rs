@@ -67,7 +67,11 @@ struct Extremes {
 #[derive(Debug, Args)]
 struct Measure {
     /// A shipped table's name, or a file with a table or a bare scene.
+    #[arg(required_unless_present = "scene", default_value = "", hide_default_value = true)]
     table: String,
+    /// Draws a picture instead: figures 1, 3 and 4 of Starball's manual, run by every motion model.
+    #[arg(long, value_name = "NAME", value_parser = ["manual"], requires = "svg", conflicts_with_all = ["table", "tolerance", "json", "needs"])]
+    scene: Option<String>,
     /// Ends within a minute: fewer settings, shots and rounds.
     #[arg(long)]
     quick: bool,

@@ -94,8 +94,8 @@ impl Div for Wide {
         let (mut rest, mut quotient) = (self.0, TwoFloat::from_f64(0.0));
         for _ in 0..3 {
             let word = rest.hi() / other.0.hi();
-            rest = rest - other.0 * word;
-            quotient = quotient + word;
+            rest -= other.0 * word;
+            quotient += word;
         }
         Self(quotient)
     }
