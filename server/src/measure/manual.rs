@@ -105,6 +105,7 @@ impl Run {
         let ends = || pieces.iter().skip(1).map(|piece| piece.start).chain([end]);
         let at = |piece: &Piece, time: Wide| piece.position + piece.way(time);
 
+        // No figure has gravity: a piece is straight.
         let mut way = Vec::new();
         for (piece, end) in pieces.iter().zip(ends()) {
             way.extend([piece.position, at(piece, end)]);

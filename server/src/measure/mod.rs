@@ -6,6 +6,7 @@
 //! 4. [`front`]: which of them are worth having, and the cheapest that keeps a tolerance.
 //! 5. [`axes`], [`loses`] and [`statistics`]: root tolerance, f32 and snapshots; where exact loses; whole games.
 //! 6. [`report`] and [`plot`]: as text, JSON and SVG.
+//! 7. [`manual`]: the figures of the manual by every motion model, as a picture.
 
 use std::time::Duration;
 
