@@ -165,8 +165,11 @@ fn verdict(table: &Table, hit: &[u16], passed: &[u16], escaped: bool) -> String 
     if parts.is_empty() { "met nothing".to_owned() } else { parts.join(", ") }
 }
 
-/// Every figure by every model, row by row.
-fn runs() -> Result<Vec<(&'static Figure, Vec<(Motion, Run)>)>, String> {
+/// A figure by every model.
+type Row = (&'static Figure, Vec<(Motion, Run)>);
+
+/// Every figure.
+fn runs() -> Result<Vec<Row>, String> {
     let row = |figure: &'static Figure| {
         let table = Table::parse(&format!("figure {}", figure.number), figure.scene).map_err(|e| e.to_string())?;
         let row: Result<Vec<_>, String> =
@@ -206,7 +209,7 @@ pub fn picture() -> Result<String, String> {
     Ok(text)
 }
 
-fn draw(text: &mut String, runs: &[(&Figure, Vec<(Motion, Run)>)]) -> Result<(), Box<dyn std::error::Error>> {
+fn draw(text: &mut String, runs: &[Row]) -> Result<(), Box<dyn std::error::Error>> {
     let row_height = ROW_HEAD + TITLE + PANEL.1 + GAP;
     let columns = Motion::ALL.len() as i32;
     let size = (GAP + columns * (PANEL.0 + GAP), HEAD + runs.len() as i32 * row_height);
