@@ -1,6 +1,6 @@
 //! `measure`: what a table's speed costs in accuracy, and its accuracy in speed.
 //!
-//! 1. [`problem`]: the table's balls, or shots on it, each with its [`reference`](mod@reference) of twice the digits of f64.
+//! 1. [`problem`](mod@problem): the table's balls, or shots on it, each with its [`reference`](mod@reference) of twice the digits of f64.
 //! 2. [`contender`]: every motion model at a ladder of step sizes plays them, as may other engines.
 //! 3. [`outcome`]: their errors at the reference's own moments, and what they cost, timed in turns.
 //! 4. [`front`]: which of them are worth having, and the cheapest that keeps a tolerance.
