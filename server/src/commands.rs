@@ -75,7 +75,7 @@ pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
     let plan = Plan::new(arguments.quick, arguments.seconds, asked);
     if arguments.needs {
         let problem = measure::problem(&table, &plan, &mut say)?;
-        return print(&measure::needs::text(&problem, plan.effort.rounds, &mut say)?);
+        return print(&measure::needs::text(&problem, plan.effort.rounds, &mut say));
     }
     let (problem, outcomes) = measure::run(&table, &plan, &mut say)?;
     print(&measure::report::text(&problem, &outcomes))?;

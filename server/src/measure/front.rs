@@ -3,7 +3,7 @@
 use shared::table::{Accuracy, Horizon};
 
 use super::outcome::Outcome;
-use super::problem::Problem;
+use super::problem::{Case, Problem};
 
 /// Errors below this are all rounding, m.
 const ROUNDING: f64 = 1e-12;
@@ -68,7 +68,16 @@ pub fn sentence(outcomes: &[Outcome], problem: &Problem, accuracy: &Accuracy) ->
     let chosen = &outcomes[choose(outcomes, problem, accuracy)?];
     let cost = chosen.cost.map_or(0.0, |cost| cost.median);
     let (name, setting) = (&chosen.name, &chosen.setting);
-    Ok(format!("{name} at {setting} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second."))
+    let ends_before = |case: &&Case| match accuracy.horizon {
+        Horizon::Seconds(seconds) => case.truth.end < seconds,
+        Horizon::Bounces(bounces) => case.truth.bounces.len() < bounces as usize,
+    };
+    let (short, all) = (problem.cases.iter().filter(ends_before).count(), problem.cases.len());
+    let note = match short {
+        0 => String::new(),
+        _ => format!(" In {short} of {all} cases the reference ends before that; up to there it is kept."),
+    };
+    Ok(format!("{name} at {setting} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second.{note}"))
 }
 
 /// The cheapest of the outcomes that keeps the accuracy which the problem was measured with.

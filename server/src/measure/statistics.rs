@@ -19,7 +19,11 @@ pub struct Mean {
 }
 
 impl Mean {
+    /// Of no values: 0.
     fn of(values: &[f64]) -> Self {
+        if values.is_empty() {
+            return Self::default();
+        }
         let count = values.len() as f64;
         let mean = values.iter().sum::<f64>() / count;
         let variance = values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / (count - 1.0).max(1.0);
