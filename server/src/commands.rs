@@ -79,17 +79,23 @@ pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
     }
     let (problem, outcomes) = measure::run(&table, &plan, &mut say)?;
     print(&measure::report::text(&problem, &outcomes))?;
-    let mut told = measure::report::json(&problem, &outcomes);
-    if asked.is_none() {
-        let further = measure::further(&table, &problem, &plan, &mut say)?;
-        print(&further.0)?;
-        told["further"] = further.1;
-    }
-    if let Some(path) = &arguments.json {
-        write(path, &format!("{told:#}\n"))?;
-    }
     if let Some(path) = &arguments.svg {
         write(path, &measure::plot::svg(&problem.name, &outcomes)?)?;
+    }
+    let mut told = measure::report::json(&problem, &outcomes);
+    let mut write_json = |further: Option<serde_json::Value>| match &arguments.json {
+        Some(path) => {
+            told["further"] = further.unwrap_or_default();
+            write(path, &format!("{told:#}\n"))
+        }
+        None => Ok(()),
+    };
+    // What is there is written before anything else can fail.
+    write_json(None)?;
+    if asked.is_none() {
+        let (text, further) = measure::further(&table, &problem, &plan, &mut say)?;
+        print(&text)?;
+        write_json(Some(further))?;
     }
     let Some(accuracy) = asked else { return Ok(()) };
     print(&measure::front::sentence(&outcomes, &problem, &accuracy)?)

@@ -134,7 +134,9 @@ impl Contender for Setting {
                 let (position, velocity) = (event.position, event.velocity);
                 match event.kind {
                     EventKind::Escaped | EventKind::Drained => {
-                        told.escaped += u32::from(event.kind == EventKind::Escaped);
+                        if event.kind == EventKind::Escaped {
+                            told.escaped.push(ball);
+                        }
                         told.lost[ball] = Some(start.to_f64());
                     }
                     EventKind::Passed { .. } => {}

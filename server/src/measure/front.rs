@@ -4,6 +4,7 @@ use shared::table::{Accuracy, Horizon};
 
 use super::outcome::Outcome;
 use super::problem::{Case, Problem};
+use super::reference::Ending;
 
 /// Errors below this are all rounding, m.
 const ROUNDING: f64 = 1e-12;
@@ -47,15 +48,15 @@ pub fn front(outcomes: &[Outcome]) -> Vec<usize> {
     front
 }
 
-/// Whether a setting keeps an accuracy in every case; where the reference ends before the horizon, up to its end.
+/// Whether a setting keeps an accuracy in every case: up to the horizon, or until its ball rests, rolls or is lost.
 fn keeps(outcome: &Outcome, problem: &Problem, horizon: Horizon) -> bool {
     outcome.failed.is_none()
         && outcome.cases.iter().zip(&problem.cases).all(|(did, case)| {
             did.finite
-                && (did.to_the_end
+                && ((did.to_the_end && matches!(case.truth.ending, Ending::Rest | Ending::Gone))
                     || match horizon {
                         Horizon::Seconds(seconds) => did.seconds >= seconds,
-                        Horizon::Bounces(bounces) => did.bounces >= (bounces as usize).min(case.truth.bounces.len()),
+                        Horizon::Bounces(bounces) => did.bounces >= bounces as usize,
                     })
         })
 }
@@ -75,7 +76,7 @@ pub fn sentence(outcomes: &[Outcome], problem: &Problem, accuracy: &Accuracy) ->
     let (short, all) = (problem.cases.iter().filter(ends_before).count(), problem.cases.len());
     let note = match short {
         0 => String::new(),
-        _ => format!(" In {short} of {all} cases the reference ends before that; up to there it is kept."),
+        _ => format!(" In {short} of {all} cases a ball rests, rolls or is lost before that; up to there it is kept."),
     };
     Ok(format!("{name} at {setting} is the cheapest that keeps {accuracy}: {cost:.0} ns for a simulated second.{note}"))
 }
@@ -102,9 +103,11 @@ pub fn choose(outcomes: &[Outcome], problem: &Problem, accuracy: &Accuracy) -> R
     let limit = problem.cases.iter().map(|case| case.limit).reduce(|a, b| if b.0 < a.0 { b } else { a });
     let (Some(best), Some(limit)) = (best, limit) else { return Err(format!("{accuracy}: nothing was measured")) };
     let (seconds, bounces) = kept(best);
+    let followed = problem.cases.iter().map(|case| case.truth.end).fold(f64::INFINITY, f64::min);
     Err(format!(
         "{accuracy} cannot be reached on {}: the best is {} at {}, which keeps it for {seconds:.3} s or {bounces} bounces in the worst case; \
-         numbers of 53 bits can for {:.3} s or {} bounces",
+         numbers of 53 bits can for {:.3} s or {} bounces, \
+         and the reference follows {followed:.3} s",
         problem.name, best.name, best.setting, limit.0, limit.1,
     ))
 }

@@ -135,7 +135,7 @@ impl Run {
             })
         };
         let passed: Vec<u16> = (0..).take(table.file.elements.len()).filter(|&element| came_through(element)).collect();
-        let verdict = verdict(table, &hit, &passed, told.escaped > 0);
+        let verdict = verdict(table, &hit, &passed, !told.escaped.is_empty());
         Ok(Self { scene, way, places, impacts, verdict })
     }
 }

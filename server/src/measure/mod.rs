@@ -62,7 +62,8 @@ impl Plan {
     /// A plan for a minute, or for as long as it takes.
     pub fn new(quick: bool, seconds: f64, asked: Option<Accuracy>) -> Self {
         let extent = match asked.map(|accuracy| accuracy.horizon) {
-            Some(Horizon::Seconds(horizon)) => Extent { seconds: seconds.max(horizon), bounces: MOST_BOUNCES },
+            // As many impacts as that takes, within reason.
+            Some(Horizon::Seconds(horizon)) => Extent { seconds: seconds.max(horizon), bounces: 10 * MOST_BOUNCES },
             // As long as it takes to see so many.
             Some(Horizon::Bounces(bounces)) => {
                 Extent { seconds: LONGEST, bounces: (bounces as usize).max(MOST_BOUNCES) }

@@ -70,6 +70,7 @@ impl Fidelity {
             looked += 1.0 / LOOKS;
         }
         let energy = told.energy(&case.scene);
+        let escapes_before_end = |ball: usize| told.lost[ball].is_some_and(|lost| lost < truth.end);
         Self {
             errors,
             seconds: departed.unwrap_or(truth.end),
@@ -81,7 +82,8 @@ impl Fidelity {
                 Conserved::Falls => Some(energy.gained),
                 Conserved::Added => None,
             },
-            escaped: told.escaped,
+            escaped: told.escaped.iter().filter(|&&ball| truth.lost[ball].is_none() && escapes_before_end(ball)).count()
+                as u32,
             passed: told.passed_through(&case.scene),
             finite: told.is_finite(),
         }
@@ -250,11 +252,16 @@ fn time(
                             sum.nanoseconds += timed.nanoseconds;
                             sum.seconds += timed.seconds;
                         }
-                        Err(why) => outcome.failed = Some(why),
+                        Err(why) => {
+                            outcome.failed = Some(why);
+                            break;
+                        }
                     }
                 }
             }
-            costs.push(sum.nanoseconds / sum.seconds);
+            if outcome.failed.is_none() && sum.seconds > 0.0 {
+                costs.push(sum.nanoseconds / sum.seconds);
+            }
         }
     }
     for (outcome, costs) in outcomes.iter_mut().zip(costs) {

@@ -34,7 +34,7 @@ pub enum Conserved {
     Kept,
     /// It falls at every impact.
     Falls,
-    /// Something adds to it.
+    /// Something adds to it, be it a kicker or a ball's spin.
     Added,
 }
 
@@ -106,13 +106,10 @@ fn conserved(scene: &Scene, truth: &Solution<Wide>) -> Conserved {
             }
             Met::Ball(_) => (scene.ball_material, false),
         };
-        if kicks || material.restitution > 1.0 {
+        if kicks || material.restitution > 1.0 || material.friction > 0.0 {
             return Conserved::Added;
         }
-        kept &= material.restitution == 1.0
-            && material.falloff == 0.0
-            && material.friction == 0.0
-            && material.tangential == 1.0;
+        kept &= material.restitution == 1.0 && material.falloff == 0.0 && material.tangential == 1.0;
     }
     if kept { Conserved::Kept } else { Conserved::Falls }
 }

@@ -65,7 +65,7 @@ pub fn games(table: &Table, count: usize, say: &mut dyn FnMut(&str)) -> Result<V
     let own = (1.0 / table.scene.tick_seconds).round() as u32;
     let settings = [
         (Motion::Exact, own),
-        (Motion::Exact, own * 4),
+        (Motion::Exact, (own * 4).min(1_000_000)),
         (Motion::Exact, (own / 4).max(1)),
         (Motion::Swept, own),
         (Motion::Pixel, own),

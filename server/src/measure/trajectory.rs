@@ -42,8 +42,8 @@ pub struct Trajectory {
     pub lost: Vec<Option<f64>>,
     /// Seconds up to which it was played.
     pub end: f64,
-    /// Balls that left the scene where none should.
-    pub escaped: u32,
+    /// Which balls left the scene where none should.
+    pub escaped: Vec<usize>,
     /// Whether the pieces are an engine's steps: an impact within one is not told. Then the way is looked at from both of a
     /// step's ends, and the better counts.
     pub steps: bool,
@@ -83,9 +83,18 @@ impl Trajectory {
         for (pieces, lost) in self.balls.iter().zip(&self.lost) {
             let end = Wide::of(lost.unwrap_or(self.end));
             for (place, piece) in pieces.iter().enumerate() {
-                let until = pieces.get(place + 1).map_or(end, |next| next.start);
-                let length = (until - piece.start).to_f64();
-                count += solids.iter().filter(|collider| crosses(piece, length, &collider.shape)).count() as u32;
+                let next = pieces.get(place + 1);
+                let length = (next.map_or(end, |next| next.start) - piece.start).to_f64();
+                let piece = match next {
+                    // An impact within a step is not told: the straight line to its end is what is known.
+                    Some(next) if self.steps => {
+                        let velocity = (next.position - piece.position) / length;
+                        Piece { velocity, acceleration: DVec2::ZERO, ..*piece }
+                    }
+                    None if self.steps => continue,
+                    _ => *piece,
+                };
+                count += solids.iter().filter(|collider| crosses(&piece, length, &collider.shape)).count() as u32;
             }
         }
         count

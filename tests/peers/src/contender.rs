@@ -49,7 +49,8 @@ impl Contender for Entrant {
             world.balls(&mut balls)?;
             // A step is 1 / rate seconds long, to more digits than a double has.
             let start = Wide::of(step as f64) / Wide::of(f64::from(self.rate));
-            for ((pieces, lost), ball) in told.balls.iter_mut().zip(&mut told.lost).zip(&balls) {
+            let ways = told.balls.iter_mut().zip(&mut told.lost).zip(&balls);
+            for (place, ((pieces, lost), ball)) in ways.enumerate() {
                 pieces.push(Piece {
                     start,
                     position: ball.position,
@@ -58,7 +59,7 @@ impl Contender for Entrant {
                 });
                 if lost.is_none() && !scene.is_inside(ball.position) {
                     *lost = Some(start.to_f64());
-                    told.escaped += 1;
+                    told.escaped.push(place);
                 }
             }
             if step % STEPS_BETWEEN_LOOKS == 0 && begun.elapsed() > patience {

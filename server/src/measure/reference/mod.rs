@@ -200,6 +200,9 @@ pub fn agree_until(truth: &Solution<Wide>, other: &Solution<Wide>, tolerance: f6
 /// A normal speed below which a ball is at rest in a scene that has no threshold, m/s: its hops are lost in rounding.
 const STILL: f64 = 1e-13;
 
+/// Impacts and passages after which a solution ends, whatever they are.
+const MOST_HAPPENINGS: usize = 10_000;
+
 struct Solver<'a, R> {
     scene: &'a Scene,
     arithmetic: Arithmetic,
@@ -248,7 +251,9 @@ impl<'a, R: Real> Solver<'a, R> {
         for ball in 0..self.bodies.len() {
             self.look_ahead(ball);
         }
-        loop {
+        // Lines that are passed do not count as impacts: two that lie on each other would be passed for ever.
+        let most = MOST_HAPPENINGS + 100 * extent.bounces;
+        for _ in 0..most {
             // 1. The first thing that happens to any ball.
             let Some((time, ball, with_ball)) = self.first() else {
                 if self.bodies.iter().any(|body| body.present) {
@@ -270,6 +275,8 @@ impl<'a, R: Real> Solver<'a, R> {
                 return self.ended(time.to_f64(), Ending::Rest);
             }
         }
+        let last = self.first().map_or(0.0, |(time, ..)| time.to_f64());
+        self.ended(last, Ending::Digits)
     }
 
     fn ended(mut self, end: f64, ending: Ending) -> Solution<R> {

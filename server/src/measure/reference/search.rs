@@ -43,7 +43,8 @@ pub(super) struct Search<'a, R> {
 impl<R: Real> Search<'_, R> {
     /// Seconds since the flight's start.
     pub(super) fn first(&mut self) -> Option<(R, Candidate)> {
-        let leaves = self.leaves()?;
+        let edge = self.leaves();
+        let leaves = edge.unwrap_or(R::of(LONGEST));
         let mut first = (leaves, Candidate::Edge);
         let mut looked_at = vec![false; self.scene.colliders.len()];
         let length = leaves.to_f64();
@@ -69,10 +70,10 @@ impl<R: Real> Search<'_, R> {
                 }
             }
         }
-        Some(first)
+        (edge.is_some() || first.1 != Candidate::Edge).then_some(first)
     }
 
-    /// When the ball leaves the scene; `None`: never.
+    /// When the ball leaves the scene; `None`: not while it is followed.
     fn leaves(&mut self) -> Option<R> {
         let Flight { position, velocity, gravity, .. } = *self.flight;
         let edge = self.scene.edge;

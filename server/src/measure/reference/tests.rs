@@ -50,6 +50,7 @@ fn the_certified_solutions_are_met_far_beyond_f64() {
         let written: Written = ron::from_str(solution).unwrap_or_else(|error| panic!("{name}: {error}"));
         let extent = Extent { seconds: written.end, bounces: written.events.len() };
         let found = reference(&table.scene, extent);
+        assert!(found.bounces.len() >= written.events.len().min(10), "{name}: {} bounces", found.bounces.len());
         let mut worst = 0.0_f64;
         for (place, (bounce, impact)) in found.bounces.iter().zip(&written.events).enumerate() {
             let origin = Vector::of(table.scene.origin);
