@@ -20,6 +20,7 @@ use std::future::Future;
 use std::sync::Arc;
 use std::time::Duration;
 
+use shared::table::Accuracy;
 use thiserror::Error;
 use tokio::net::TcpListener;
 use tokio::sync::{broadcast, mpsc};
@@ -43,17 +44,25 @@ pub enum ServerError {
     /// The room's task failed: a bug.
     #[error("the room ended unexpectedly: {0}")]
     Room(#[from] tokio::task::JoinError),
+    /// The table still asks for an accuracy. Clients would refuse it: each might choose differently.
+    #[error(
+        "the table asks for {0}, and motion model and tick rate have not been chosen: it must be resolved to be served"
+    )]
+    Unresolved(Accuracy),
 }
 
 /// Serves until `shutdown` is ready, then tells the clients, and returns an account of what happened.
 ///
 /// # Errors
-/// If the room's task fails.
+/// If the table is not resolved, or the room's task fails.
 pub async fn run(
     listener: TcpListener,
     config: Config,
     shutdown: impl Future<Output = ()> + Send + 'static,
 ) -> Result<Account, ServerError> {
+    if let Some(asked) = config.table.accuracy {
+        return Err(ServerError::Unresolved(asked));
+    }
     let (frames, _) = broadcast::channel(FRAMES_BEHIND);
     let (commands, waiting) = mpsc::channel(COMMANDS_WAITING);
     let config = Arc::new(config);
@@ -77,4 +86,23 @@ pub async fn run(
         tracing::warn!("some clients did not take the goodbye in time");
     }
     Ok(account)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::future::pending;
+
+    use shared::table::Table;
+
+    use super::*;
+
+    #[tokio::test]
+    async fn a_table_that_is_not_resolved_is_not_served() {
+        let classic = load_table("classic").expect("it is shipped");
+        let source = classic.source.replacen("name:", "accuracy: (tolerance: 0.0001, horizon: Seconds(3.0)), name:", 1);
+        let asking = Arc::new(Table::parse("asking.ron", &source).expect("it may ask"));
+        let listener = TcpListener::bind("127.0.0.1:0").await.expect("a port is free");
+        let refused = run(listener, Config::new(asking), pending()).await.expect_err("clients would refuse it");
+        assert!(refused.to_string().contains("asks for 0.1 mm over 3 s"), "{refused}");
+    }
 }

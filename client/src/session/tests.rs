@@ -129,6 +129,10 @@ fn a_strange_welcome_is_refused() {
     assert!(matches!(Session::new(&other), Err(SessionError::Physics { .. })));
     let other = Welcome { table_digest: 5, ..welcome.clone() };
     assert!(matches!(Session::new(&other), Err(SessionError::Digest)));
+    let asking = table.source.replacen("name:", "accuracy: (tolerance: 0.0001, horizon: Bounces(5)), name:", 1);
+    let digest = Table::parse("asking.ron", &asking).unwrap().digest;
+    let other = Welcome { table: asking, table_digest: digest, ..welcome.clone() };
+    assert!(matches!(Session::new(&other), Err(SessionError::Unresolved)));
     let other = Welcome { table: "(".to_owned(), ..welcome };
     assert!(matches!(Session::new(&other), Err(SessionError::Table(_))));
 }
