@@ -42,7 +42,7 @@ impl Simulation {
 }
 
 /// Whoever chooses the inputs of each tick.
-struct Inputs<'a> {
+pub(crate) struct Inputs<'a> {
     player: &'a Player,
     bot: Bot,
     /// Of a log: how many are past.
@@ -50,12 +50,12 @@ struct Inputs<'a> {
 }
 
 impl<'a> Inputs<'a> {
-    fn new(simulation: &'a Simulation) -> Self {
+    pub(crate) fn new(simulation: &'a Simulation) -> Self {
         Self { player: &simulation.player, bot: Bot::new(0, simulation.seed), past: 0 }
     }
 
     /// The inputs of the game's next tick.
-    fn choose(&mut self, game: &Game, inputs: &mut Vec<Input>) {
+    pub(crate) fn choose(&mut self, game: &Game, inputs: &mut Vec<Input>) {
         inputs.clear();
         let tick = game.tick();
         match self.player {

@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use shared::game::{Action, Bot, Game, Input, Phase};
+use shared::game::Game;
 use shared::math::Rng;
 use shared::physics::ball::{Instant, Support};
 use shared::physics::needs::Needs;
 use shared::physics::scene::{Role, Scene, StartBall};
 use shared::table::Table;
+
+use crate::simulate::{Inputs, Player, Simulation};
 
 use super::real::{Real, Wide};
 use super::reference::{Arithmetic, Ending, Extent, Met, Solution, agree_until, is_present, reference, solve};
@@ -125,20 +127,12 @@ const SLOWEST: f64 = 0.2;
 fn shots_of(table: &Table, count: usize) -> Vec<Scene> {
     let table = Arc::new(table.clone());
     let mut game = Game::new(Arc::clone(&table));
-    let (mut bot, mut rng) = (Bot::new(0, SEED), Rng::new(SEED));
+    let simulation = Simulation { seconds: LONGEST_GAME, player: Player::Bot, seed: SEED };
+    let (mut player, mut rng) = (Inputs::new(&simulation), Rng::new(SEED));
     let dt = table.scene.tick_seconds;
     let (mut shots, mut inputs, mut next) = (Vec::new(), Vec::new(), 0.0);
     while shots.len() < count && game.tick() as f64 * dt < LONGEST_GAME {
-        inputs.clear();
-        let tick = game.tick();
-        let mut act = |action| inputs.push(Input { tick, seat: 0, action });
-        if tick == 0 {
-            act(Action::Sit);
-        }
-        if !matches!(game.phase(), Phase::Play { .. }) {
-            act(Action::Start);
-        }
-        bot.play(&game, act);
+        player.choose(&game, &mut inputs);
         game.step(&inputs);
         if (game.tick() as f64 * dt) < next {
             continue;

@@ -5,9 +5,11 @@ use core::fmt::Write;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use shared::game::{Action, Bot, Game, GameEventKind, Input, Phase};
+use shared::game::{Game, GameEventKind, Phase};
 use shared::physics::motion::Motion;
 use shared::table::Table;
+
+use crate::simulate::{Inputs, Player, Simulation};
 
 /// Mean with its standard error.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -86,16 +88,11 @@ fn play(table: &Arc<Table>, motion: Motion, tick_hz: u32, count: usize) -> Games
     let (mut served, mut lost, mut rescued) = (0_u32, 0_u32, 0_u32);
     let dt = table.scene.tick_seconds;
     for seed in 0..count as u64 {
-        let (mut game, mut bot, mut inputs) = (Game::new(Arc::clone(table)), Bot::new(0, seed), Vec::new());
+        let simulation = Simulation { seconds: LONGEST, player: Player::Bot, seed };
+        let (mut game, mut player, mut inputs) = (Game::new(Arc::clone(table)), Inputs::new(&simulation), Vec::new());
         let (mut score, mut began) = (0_u64, None);
         for tick in 0..(LONGEST / dt) as u64 {
-            inputs.clear();
-            let mut act = |action| inputs.push(Input { tick, seat: 0, action });
-            if tick == 0 {
-                act(Action::Sit);
-                act(Action::Start);
-            }
-            bot.play(&game, act);
+            player.choose(&game, &mut inputs);
             for event in game.step(&inputs) {
                 match event.kind {
                     GameEventKind::Points { points, .. } => score += points,
