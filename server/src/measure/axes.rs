@@ -72,14 +72,13 @@ fn vary(problem: &Problem, name: String, arithmetic: Arithmetic, rounds: usize) 
                 did.map(|(solution, case)| Fidelity::of(case, &trajectory(solution), problem.tolerance)).collect();
         }
     }
-    let median = |values: Vec<f64>| Spread::of(values).map(|spread| spread.median);
     Variation {
         name,
         steps: steps as f64 / bounces.max(1) as f64,
-        nanoseconds: median(costs).unwrap_or(0.0),
-        third: median(fidelities.iter().filter_map(|did| did.errors[1]).collect()),
-        bounces: median(fidelities.iter().map(|did| did.bounces as f64).collect()).unwrap_or(0.0),
-        seconds: median(fidelities.iter().map(|did| did.seconds).collect()).unwrap_or(0.0),
+        nanoseconds: Spread::median(costs).unwrap_or(0.0),
+        third: Spread::median(fidelities.iter().filter_map(|did| did.errors[1])),
+        bounces: Spread::median(fidelities.iter().map(|did| did.bounces as f64)).unwrap_or(0.0),
+        seconds: Spread::median(fidelities.iter().map(|did| did.seconds)).unwrap_or(0.0),
     }
 }
 

@@ -78,7 +78,7 @@ fn cost(scene: &Scene, hz: u32, seconds: f64, rounds: usize, patience: Duration)
             costs.push(timed.nanoseconds / timed.seconds);
         }
     }
-    Some((Spread::of(exact)?.median, Spread::of(swept)?.median))
+    Some((Spread::median(exact)?, Spread::median(swept)?))
 }
 
 /// Seconds of play with flippers.
@@ -98,7 +98,7 @@ pub fn flippers(table: &Table, rounds: usize, say: &mut dyn FnMut(&str)) -> Vec<
                 costs.push(play(table, motion, beating));
             }
         }
-        let [exact, swept] = costs.map(|costs| Spread::of(costs).map_or(f64::NAN, |spread| spread.median));
+        let [exact, swept] = costs.map(|costs| Spread::median(costs).unwrap_or(f64::NAN));
         told.push(Comparison { axis: "flippers of the table", value: value.to_owned(), exact, swept });
     }
     told

@@ -38,7 +38,7 @@ pub fn text(problem: &Problem, rounds: usize, say: &mut dyn FnMut(&str)) -> Stri
         }
     }
     let base = costs[0].clone();
-    let median = |values: Vec<f64>| Spread::of(values).map_or(f64::NAN, |spread| spread.median);
+    let median = |values: Vec<f64>| Spread::median(values).unwrap_or(f64::NAN);
     let mut out = format!("{} needs: {}.\n\n", problem.name, own.names().collect::<Vec<_>>().join(", "));
     let _ = writeln!(out, "| need | has it | ns a tick without | ns a tick with | difference |\n|---|---|---|---|---|");
     for ((place, (need, _)), costs) in variants.iter().enumerate().zip(costs).skip(1) {

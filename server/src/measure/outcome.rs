@@ -108,6 +108,11 @@ impl Spread {
         let at = |share: f64| values[((values.len() - 1) as f64 * share).round() as usize];
         (!values.is_empty()).then(|| Self { median: at(0.5), low: at(0.25), high: at(0.75) })
     }
+
+    /// The median alone.
+    pub fn median(values: impl IntoIterator<Item = f64>) -> Option<f64> {
+        Self::of(values.into_iter().collect()).map(|spread| spread.median)
+    }
 }
 
 /// How a contender did on a problem.
@@ -130,22 +135,22 @@ pub struct Outcome {
 impl Outcome {
     /// Median over the cases of the error at the place-th of [`BOUNCES`], m.
     pub fn error(&self, place: usize) -> Option<f64> {
-        Spread::of(self.cases.iter().filter_map(|case| case.errors[place]).collect()).map(|spread| spread.median)
+        Spread::median(self.cases.iter().filter_map(|case| case.errors[place]))
     }
 
     /// Median over the cases of the seconds before the first departure.
     pub fn seconds(&self) -> f64 {
-        Spread::of(self.cases.iter().map(|case| case.seconds).collect()).map_or(0.0, |spread| spread.median)
+        Spread::median(self.cases.iter().map(|case| case.seconds)).unwrap_or(0.0)
     }
 
     /// Median over the cases of the impacts before it.
     pub fn bounces(&self) -> f64 {
-        Spread::of(self.cases.iter().map(|case| case.bounces as f64).collect()).map_or(0.0, |spread| spread.median)
+        Spread::median(self.cases.iter().map(|case| case.bounces as f64)).unwrap_or(0.0)
     }
 
     /// Median over the cases of those impacts that are no luck.
     pub fn earned(&self) -> f64 {
-        Spread::of(self.cases.iter().map(|case| case.earned as f64).collect()).map_or(0.0, |spread| spread.median)
+        Spread::median(self.cases.iter().map(|case| case.earned as f64)).unwrap_or(0.0)
     }
 
     /// The worst over the cases in which it is known what should become of the energy.

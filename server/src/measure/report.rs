@@ -3,6 +3,7 @@
 use core::fmt::Write;
 
 use serde_json::{Value, json};
+use shared::table::length_text;
 
 use super::front::{dominated, front};
 use super::outcome::{BOUNCES, Outcome, Spread};
@@ -39,7 +40,7 @@ pub fn text(problem: &Problem, outcomes: &[Outcome]) -> String {
             error(outcome.error(1)),
             outcome.bounces(),
             outcome.seconds(),
-            metres(problem.tolerance),
+            length_text(problem.tolerance),
         );
     }
     let models: Vec<&str> = front.iter().map(|&place| outcomes[place].name.as_str()).collect();
@@ -51,7 +52,7 @@ pub fn text(problem: &Problem, outcomes: &[Outcome]) -> String {
 
 fn problem_text(problem: &Problem) -> String {
     let cases = &problem.cases;
-    let of = |values: Vec<f64>| Spread::of(values).map_or(0.0, |spread| spread.median);
+    let of = |values: Vec<f64>| Spread::median(values).unwrap_or(0.0);
     let mut out = format!("{}: ", problem.name);
     if problem.shots {
         let _ = write!(out, "{} shots from a game of the bot's, flippers at rest; medians", cases.len());
@@ -84,7 +85,7 @@ fn problem_text(problem: &Problem) -> String {
     let limit = |bits: &str, limits: Vec<(f64, usize)>| {
         format!(
             "Any arithmetic of {bits} bits departs by {} after {} bounces, at {:.2} s, or later.",
-            metres(problem.tolerance),
+            length_text(problem.tolerance),
             of(limits.iter().map(|limit| limit.1 as f64).collect()),
             of(limits.iter().map(|limit| limit.0).collect()),
         )
@@ -132,17 +133,6 @@ fn error(error: Option<f64>) -> String {
         Some(error) if error.is_finite() => format!("{error:.1e}"),
         Some(_) => "lost".to_owned(),
     }
-}
-
-/// A length as people say it.
-pub fn metres(length: f64) -> String {
-    let (factor, unit) = match length {
-        l if l >= 1.0 => (1.0, "m"),
-        l if l >= 1e-4 => (1e3, "mm"),
-        l if l >= 1e-7 => (1e6, "um"),
-        _ => (1e9, "nm"),
-    };
-    format!("{} {unit}", (length * factor * 1e6).round() / 1e6)
 }
 
 /// The same as JSON.

@@ -75,6 +75,18 @@ pub fn parse_tolerance(text: &str) -> Result<f64, String> {
     tolerance_in_range(number * factor)
 }
 
+/// A length in metres as people say it, such as `0.1 mm`.
+pub fn length_text(metres: f64) -> String {
+    let (factor, unit) = match metres {
+        length if length >= 1.0 => (1.0, "m"),
+        length if length >= 1e-5 => (1e3, "mm"),
+        length if length >= 1e-8 => (1e6, "um"),
+        _ => (1e9, "nm"),
+    };
+    // Six decimals: the factor is rounded.
+    format!("{} {unit}", (metres * factor * 1e6).round() / 1e6)
+}
+
 impl FromStr for Horizon {
     type Err = String;
 
@@ -103,14 +115,7 @@ impl fmt::Display for Horizon {
 
 impl fmt::Display for Accuracy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (factor, unit) = match self.tolerance {
-            t if t >= 1.0 => (1.0, "m"),
-            t if t >= 1e-5 => (1e3, "mm"),
-            t if t >= 1e-8 => (1e6, "um"),
-            _ => (1e9, "nm"),
-        };
-        // Six decimals: the factor is rounded.
-        write!(f, "{} {unit} over {}", (self.tolerance * factor * 1e6).round() / 1e6, self.horizon)
+        write!(f, "{} over {}", length_text(self.tolerance), self.horizon)
     }
 }
 

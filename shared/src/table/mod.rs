@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-pub use accuracy::{Accuracy, Horizon, parse_tolerance};
+pub use accuracy::{Accuracy, Horizon, length_text, parse_tolerance};
 pub(crate) use check::{is_printable, unprintable};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
