@@ -29,7 +29,7 @@ const AIM: f64 = 0.05;
 
 fn world(element: &str) -> World {
     let text = format!(
-        r#"(format: 1, physics: 2, name: "a moving body", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+        r#"(format: 1, physics: 3, name: "a moving body", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.9, 0.9)),
         materials: {{ "rubber": (restitution: 0.8, falloff: 0.43, friction: 0.6) }},
         elements: [{element} Drain(name: "drain", from: (0.0, 0.001), to: (1.0, 0.001))],

@@ -174,7 +174,7 @@ fn two_balls(motion: Motion) -> Case {
 
 /// A table with one of everything that stands still, and friction.
 fn parts(motion: Motion) -> Case {
-    let text = r#"(format: 1, physics: 2, name: "parts", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+    let text = r#"(format: 1, physics: 3, name: "parts", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)),
         materials: {
             "wood": (restitution: 0.3, friction: 0.3),

@@ -34,7 +34,7 @@ pub(super) const CHECKS: &[Check] = &[
 
 /// A ball slides to and fro in a bowl for 10 s: largest change of its energy.
 fn rolling(motion: Motion) -> Result<f64, String> {
-    let text = r#"(format: 1, physics: 2, name: "bowl", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+    let text = r#"(format: 1, physics: 3, name: "bowl", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)), materials: { "slick": (restitution: 0.5) },
         elements: [
             Arc(name: "bowl", material: "slick", center: (0.5, 0.7), radius: 0.3, from: 90.0, to: 270.0),
@@ -74,7 +74,7 @@ fn passive(motion: Motion) -> Vec<Case> {
 
 /// Rubber, wood and friction: a ball that spins, slips and rolls.
 fn rough(motion: Motion, velocity: (f64, f64)) -> Case {
-    let text = r#"(format: 1, physics: 2, name: "rough", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+    let text = r#"(format: 1, physics: 3, name: "rough", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)),
         materials: {
             "wood": (restitution: 0.3, friction: 0.3),

@@ -28,7 +28,7 @@ pub(super) const CHECKS: &[Check] = &[
 const WRITTEN: [&str; 3] = ["NaN", "inf", "-inf"];
 
 /// One of everything that has numbers.
-const TABLE: &str = r#"(format: 1, physics: 2, name: "all", size: (1.0, 1.0), tick_hz: 1000, pixel: 0.001, gravity: (0.0, -0.793),
+const TABLE: &str = r#"(format: 1, physics: 3, name: "all", size: (1.0, 1.0), tick_hz: 1000, pixel: 0.001, gravity: (0.0, -0.793),
     rest_speed: 0.02, ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)),
     materials: { "m": (restitution: 0.8, falloff: 0.3, friction: 0.6, tangential: 0.9) },
     elements: [

@@ -2,7 +2,7 @@
 
 /// Version of the physics. A change that alters any trajectory must raise it, since scores, replays and golden digests
 /// are only valid for the version that they were made with.
-pub const PHYSICS_VERSION: u32 = 2;
+pub const PHYSICS_VERSION: u32 = 3;
 
 /// Share of a tangential force that accelerates a solid sphere which rolls along a surface: 1 / (1 + 2/5), no unit.
 /// The rest goes into its spin.

@@ -7,7 +7,7 @@ use crate::physics::MOST_PARTS;
 /// A good table with one of everything.
 const GOOD: &str = r#"(
     format: 1,
-    physics: 2,
+    physics: 3,
     name: "Good",
     size: (0.5, 1.0),
     gravity: (0.0, -0.8),
@@ -118,7 +118,7 @@ const CASES: &[Case] = &[
     case("\"wood\": (", "\"rubber\": (", "\"rubber\"", ("", ""), "\"rubber\" is there twice; names must differ"),
     // Versions.
     case("format: 1", "format: 2", "format", ("", "format"), "this program knows version 1"),
-    case("physics: 2", "physics: 7", "physics", ("", "physics"), "this program knows version 2"),
+    case("physics: 3", "physics: 7", "physics", ("", "physics"), "this program knows version 3"),
     // The table's own numbers. The ball comes after elements that have a radius, too.
     case("name: \"Good\"", "name: \"\"", "name", ("", "name"), "1 to 40 printable characters"),
     case("size: (0.5, 1.0)", "size: (0.5, 0.0)", "size", ("", "size"), "(0.514, 1.067) metres would be right"),

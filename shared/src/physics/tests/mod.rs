@@ -24,7 +24,7 @@ use crate::table::Table;
 /// Materials: `ideal` bounces for ever, `slick` has no friction, `wood` is real, `dead` takes all of a bounce.
 fn world_with(gravity: DVec2, elements: &str) -> World {
     let source = format!(
-        r#"(format: 1, physics: 2, name: "test", size: (1.0, 1.0), gravity: ({:?}, {:?}), rest_speed: 0.02,
+        r#"(format: 1, physics: 3, name: "test", size: (1.0, 1.0), gravity: ({:?}, {:?}), rest_speed: 0.02,
         ball: (radius: 0.0135, mass: 0.08, start: (0.985, 0.985)),
         materials: {{
             "ideal": (restitution: 1.0),
