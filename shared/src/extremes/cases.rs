@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::transform::Similarity;
 use crate::physics::World;
-use crate::physics::ball::{Instant, Support};
+use crate::physics::ball::Instant;
 use crate::physics::motion::Motion;
 use crate::physics::scene::Scene;
 use crate::table::Table;
@@ -89,7 +89,7 @@ pub(super) fn balls(world: &World) -> impl Iterator<Item = (DVec2, DVec2, f64)> 
     let (now, dt) = (Instant::start_of(world.state().tick), world.scene().tick_seconds);
     world.state().balls.iter().map(move |ball| {
         let (position, velocity) = ball.at(now, dt);
-        (position, velocity, ball.spin)
+        (position, velocity, ball.spin_at(now, world.scene()))
     })
 }
 
@@ -98,17 +98,12 @@ pub(super) fn is_finite(world: &World) -> bool {
     balls(world).all(|(position, velocity, spin)| position.is_finite() && velocity.is_finite() && spin.is_finite())
 }
 
-/// Energy of all balls, J, with the height of (0, 0) as that of no energy. A ball that rolls along something has the spin of
-/// rolling.
+/// Energy of all balls, J, with the height of (0, 0) as that of no energy.
 pub(super) fn energy(world: &World) -> f64 {
     let (scene, state) = (world.scene(), world.state());
     balls(world).zip(&state.balls).fold(0.0, |sum, ((position, velocity, spin), ball)| {
         let (radius, mass) = (scene.radius(ball.kind), scene.mass(ball.kind));
-        let rolls = match ball.support {
-            Support::Line(i) | Support::Arc(i) => scene.colliders[usize::from(i)].material.friction > 0.0,
-            _ => false,
-        };
-        let rim = if rolls { velocity.length() } else { spin * radius };
+        let rim = spin * radius;
         sum + mass * (0.5 * velocity.length_squared() + 0.2 * rim * rim - scene.gravity.dot(position))
     })
 }

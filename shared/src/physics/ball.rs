@@ -3,6 +3,8 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::scene::{Collider, Scene};
+
 /// A moment of world time: a tick and the seconds since its start.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Instant {
@@ -91,6 +93,15 @@ pub enum Support {
     Plunger(u16),
 }
 
+/// How a ball slides along what it lies on: its rim slips, and friction works on it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Slide {
+    /// Seconds after the start of its flight at which it grips and rolls; `None`: not before something else happens.
+    pub until: Option<f64>,
+    /// Rate at which friction changes its spin, rad/s^2.
+    pub spin_rate: f64,
+}
+
 /// A ball in play.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ball {
@@ -102,15 +113,25 @@ pub struct Ball {
     pub floor: u8,
     /// Where it is and how it moves.
     pub flight: Flight,
-    /// About the playfield's normal, rad/s, counter-clockwise.
+    /// About the playfield's normal at the start of its flight, rad/s, counter-clockwise.
     pub spin: f64,
     /// What it lies on.
     pub support: Support,
+    /// How it slides on that; `None` if it rolls, or flies.
+    pub slide: Option<Slide>,
     /// Events of this flight up to this time (seconds since its start) and collider are past.
     pub past: Option<(f64, u16)>,
 }
 
 impl Ball {
+    /// The static surface that it lies on.
+    pub(super) fn support_collider<'a>(&self, scene: &'a Scene) -> Option<&'a Collider> {
+        match self.support {
+            Support::Line(i) | Support::Arc(i) => scene.colliders.get(usize::from(i)),
+            _ => None,
+        }
+    }
+
     /// Centre and velocity at `instant`.
     pub fn at(&self, instant: Instant, tick_seconds: f64) -> (DVec2, DVec2) {
         let t = instant.since(self.flight.start, tick_seconds);

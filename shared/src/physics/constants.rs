@@ -101,6 +101,11 @@ pub const WEDGE_SPEEDS: f64 = 4.0;
 /// tick is far below. Larger: it is pulled back from the air.
 pub const LOST_CONTACT: f64 = 0.01;
 
+/// Angle, rad, by which a flipper turns at the most while a ball on it follows one parabola: at 6 cm from the pivot such a
+/// piece is 0.6 mm long and 3 micrometres high. Larger: shots depend on the tick, and a ball of 100 m/s sinks in. Smaller: a
+/// ball that is shot costs more.
+pub const PIECE_ANGLE: f64 = 0.01;
+
 /// Ball radii from a target's place within which a ball keeps the target from rising: a hundredth more than a touch.
 pub const CLEAR_OF_TARGET: f64 = 1.01;
 

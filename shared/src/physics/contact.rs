@@ -2,8 +2,9 @@
 
 use glam::DVec2;
 
-use super::ball::Support;
+use super::ball::{Slide, Support};
 use super::constants::{SLIDE_ROUNDING, SLIP_SHARE, SMOOTH_JOINT, SPHERE_INERTIA, WEDGE_SPEEDS};
+use super::friction::{Friction, Rub};
 use super::scene::{Collider, Material, Scene};
 use super::shapes::{Shape, Side};
 use super::two_body::after_impact;
@@ -113,7 +114,6 @@ struct Touch {
     /// Away from the centre of curvature when positive: 1 / radius of the path that the ball's centre would follow.
     curvature: f64,
     friction: f64,
-    share: f64,
     round: bool,
     /// Square of the normal speed, m^2/s^2 for each m/s^2 of press, whose hop is lost in the rounding of the coordinates.
     lost_hop: f64,
@@ -134,31 +134,45 @@ impl Touch {
             normal: shape.normal_at(position),
             curvature,
             friction: material.friction,
-            share: material.rolling_share(),
             round,
             lost_hop: 2.0 * f64::EPSILON * (position.abs().max_element() + radius),
         }
     }
 
     /// Square of the normal speed, m^2/s^2, below which the ball stays: the table's, or that of a hop lost in rounding.
-    fn rest_square(&self, scene: &Scene, velocity: DVec2) -> f64 {
-        let press = self.press(scene.gravity, velocity);
+    fn rest_square(&self, scene: &Scene, pull: DVec2, velocity: DVec2) -> f64 {
+        let press = self.press(pull, velocity);
         let lost = if press > 0.0 { self.lost_hop * press } else { 0.0 };
         let square = scene.rest_speed * scene.rest_speed;
         if square > lost { square } else { lost }
     }
 
     /// Acceleration with which a ball that moves along the surface is pressed against it; not positive: it lifts off.
-    fn press(&self, gravity: DVec2, velocity: DVec2) -> f64 {
+    fn press(&self, pull: DVec2, velocity: DVec2) -> f64 {
         let speed = velocity.dot(tangent(self.normal));
-        -gravity.dot(self.normal) - self.curvature * speed * speed
+        -pull.dot(self.normal) - self.curvature * speed * speed
     }
 
-    /// Acceleration of a ball that moves along the surface.
-    fn acceleration(&self, gravity: DVec2, velocity: DVec2) -> DVec2 {
+    /// How friction acts on a ball that moves along the surface.
+    fn friction(&self, pull: DVec2, velocity: DVec2, spin: f64, radius: f64, ahead: f64) -> Friction {
+        let along = tangent(self.normal);
+        let (speed, pulled) = (velocity.dot(along), pull.dot(along));
+        let rub = Rub { friction: self.friction, speed, spin, radius, pulled };
+        let first = rub.against(self.press(pull, velocity));
+        if self.curvature == 0.0 || ahead == 0.0 {
+            return first;
+        }
+        // On a curved surface the load changes with the speed: as it is in the middle of the time that this is for.
+        let later = velocity + along * ((pulled + first.along) * ahead);
+        let press = self.press(pull, later);
+        if press > 0.0 { rub.against(press) } else { first }
+    }
+
+    /// Acceleration of a ball that moves along the surface, with the friction's share along it.
+    fn acceleration(&self, pull: DVec2, velocity: DVec2, friction: f64) -> DVec2 {
         let along = tangent(self.normal);
         let speed = velocity.dot(along);
-        along * (gravity.dot(along) * self.share) - self.normal * (self.curvature * speed * speed)
+        along * (pull.dot(along) + friction) - self.normal * (self.curvature * speed * speed)
     }
 
     /// Whether two surfaces meet smoothly here: the same normal, but for a thousandth of a radian.
@@ -180,22 +194,32 @@ pub struct Settled {
     pub acceleration: DVec2,
     /// Spin: that of rolling, where the ball rolls.
     pub spin: f64,
+    /// How it slides, if it does.
+    pub slide: Option<Slide>,
     /// What it lies on now.
     pub support: Support,
 }
 
+/// A ball at a moment at which its motion changes.
+#[derive(Debug, Clone, Copy)]
+pub struct Moment {
+    /// m.
+    pub radius: f64,
+    /// Of its centre, m.
+    pub position: DVec2,
+    /// m/s.
+    pub velocity: DVec2,
+    /// rad/s.
+    pub spin: f64,
+    /// What accelerates it where nothing holds it, m/s^2.
+    pub pull: DVec2,
+    /// Half of the time, in seconds, for which a motion along a curve will be taken for a parabola.
+    pub ahead: f64,
+}
+
 /// Decides how a ball goes on that touches the collider `hit` and, until now, lay on `before`.
-pub fn settle(
-    scene: &Scene,
-    radius: f64,
-    position: DVec2,
-    velocity: DVec2,
-    spin: f64,
-    hit: Option<u16>,
-    before: Option<u16>,
-) -> Settled {
-    let free = Settled { velocity, acceleration: scene.gravity, spin, support: Support::None };
-    let mut velocity = velocity;
+pub fn settle(scene: &Scene, ball: &Moment, hit: Option<u16>, before: Option<u16>) -> Settled {
+    let Moment { radius, position, mut velocity, spin, pull, ahead } = *ball;
     let mut held: [Option<Touch>; 2] = [None, None];
     let mut still_square = 0.0;
     for (place, collider) in held.iter_mut().zip([hit, before]) {
@@ -203,7 +227,7 @@ pub fn settle(
         let speed = velocity.dot(touch.normal);
         // `hit` was just met, so it is not approached; `before` may be pressed into by the new velocity: then the next
         // search finds an impact with it.
-        let rest_square = touch.rest_square(scene, velocity);
+        let rest_square = touch.rest_square(scene, pull, velocity);
         if speed * speed <= rest_square {
             velocity -= touch.normal * speed;
             *place = Some(touch);
@@ -212,43 +236,54 @@ pub fn settle(
     }
     let [first, second] = held;
     let mut pressed_by_any = false;
+    // Between two surfaces a ball that hardly moves does not slide: it would climb them in turn, ever less, without end.
+    let slow_square = WEDGE_SPEEDS * WEDGE_SPEEDS * still_square;
+    let is_slow = velocity.length_squared() <= slow_square && (spin * radius) * (spin * radius) <= slow_square;
+    let is_between = first.is_some() && second.is_some();
     for (touch, other) in [(first, second), (second, first)] {
         let Some(touch) = touch else { continue };
-        if touch.press(scene.gravity, velocity) <= 0.0 {
+        if touch.press(pull, velocity) <= 0.0 {
             continue;
         }
         pressed_by_any = true;
         let along = tangent(touch.normal);
         let speed = velocity.dot(along);
-        // A ball that slips grips the surface and rolls: what its rim gains, its centre loses.
-        let slip = if touch.friction > 0.0 { speed + spin * radius } else { 0.0 };
-        let speed = speed - SLIP_SHARE * slip;
         let slid = along * speed;
-        let acceleration = touch.acceleration(scene.gravity, slid);
+        let spin = if is_between && is_slow { -speed / radius } else { spin };
+        let friction = touch.friction(pull, slid, spin, radius, ahead);
+        let acceleration = touch.acceleration(pull, slid, friction.along);
         if other.is_none_or(|other| touch.continues(&other) || clears(&other, slid, acceleration, still_square)) {
-            let spin = if touch.friction > 0.0 { -speed / radius } else { spin };
-            return Settled { velocity: slid, acceleration, spin, support: touch.support() };
+            let rolls = touch.friction > 0.0 && friction.slide.is_none();
+            let spin = if rolls { -speed / radius } else { spin };
+            return Settled { velocity: slid, acceleration, spin, slide: friction.slide, support: touch.support() };
         }
     }
     match (first, second) {
-        (Some(first), Some(second))
-            if pressed_by_any && velocity.length_squared() <= WEDGE_SPEEDS * WEDGE_SPEEDS * still_square =>
-        {
+        (Some(first), Some(second)) if pressed_by_any && velocity.length_squared() <= slow_square => {
             let still = Settled {
                 velocity: DVec2::ZERO,
                 acceleration: DVec2::ZERO,
                 spin: 0.0,
+                slide: None,
                 support: Support::Wedge(first.collider, second.collider),
             };
             // Where a slope grows steeper, a ball that rolled up stops for a moment only: it rolls down the lower part.
             [(first, second), (second, first)]
                 .into_iter()
-                .filter(|(touch, _)| touch.press(scene.gravity, DVec2::ZERO) > 0.0)
-                .map(|(touch, other)| (touch, other, touch.acceleration(scene.gravity, DVec2::ZERO)))
-                .find(|(_, other, acceleration)| clears(other, DVec2::ZERO, *acceleration, still_square))
-                .map_or(still, |(touch, _, acceleration)| Settled { acceleration, support: touch.support(), ..still })
+                .filter(|(touch, _)| touch.press(pull, DVec2::ZERO) > 0.0)
+                .map(|(touch, other)| {
+                    let friction = touch.friction(pull, DVec2::ZERO, 0.0, radius, ahead);
+                    (touch, other, friction.slide, touch.acceleration(pull, DVec2::ZERO, friction.along))
+                })
+                .find(|(_, other, _, acceleration)| clears(other, DVec2::ZERO, *acceleration, still_square))
+                .map_or(still, |(touch, _, slide, acceleration)| Settled {
+                    acceleration,
+                    slide,
+                    support: touch.support(),
+                    ..still
+                })
         }
-        _ => Settled { velocity, ..free },
+        _ => Settled { velocity, acceleration: pull, spin, slide: None, support: Support::None },
     }
 }
 

@@ -1,6 +1,7 @@
 //! What drives flippers and plungers: coils, springs, hands, and the balls that lie on them.
 
-use super::ball::{Instant, Support};
+use super::ball::{Ball, Instant, Support};
+use super::constants::PIECE_ANGLE;
 use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::world::World;
 
@@ -21,7 +22,7 @@ impl World {
             }
             let flipper = self.state.flippers[index];
             self.flipper_motions[index] =
-                (flipper.rest == FlipperRest::Moving).then(|| self.flipper_motion(index, flipper));
+                (flipper.rest == FlipperRest::Moving).then(|| self.flipper_motion(index, flipper, 0.0));
         }
         for index in 0..self.state.plungers.len() {
             let plunger = self.state.plungers[index];
@@ -37,31 +38,56 @@ impl World {
         }
     }
 
-    /// How a flipper moves in this tick: with the acceleration that it has in the middle of it.
-    fn flipper_motion(&self, index: usize, flipper: FlipperState) -> FlipperMotion {
-        let dt = self.scene.tick_seconds;
+    /// How a flipper moves from `offset` on: with the acceleration that it has in the middle of this tick's rest, or of the
+    /// piece that balls on it follow.
+    pub(super) fn flipper_motion(&self, index: usize, flipper: FlipperState, offset: f64) -> FlipperMotion {
         let spec = &self.scene.flippers[index];
+        let flipper = FlipperState { coil_time: flipper.coil_time + offset, ..flipper };
         let FlipperState { swing, speed, .. } = flipper;
-        let acceleration = self.flipper_acceleration(index, &flipper, spec.drive(&flipper, swing, dt), 0.0);
-        let guess = FlipperMotion { from: 0.0, swing, speed, acceleration };
-        let half = 0.5 * dt;
-        let middle = FlipperState { swing: guess.swing_at(half), speed: guess.speed_at(half), ..flipper };
-        let drive = spec.drive(&flipper, guess.swing_at(dt), dt);
-        FlipperMotion { acceleration: self.flipper_acceleration(index, &middle, drive, half), ..guess }
+        let span = if self.on_flipper(index).next().is_some() {
+            self.flipper_piece(speed, offset)
+        } else {
+            self.scene.tick_seconds - offset
+        };
+        let acceleration = self.flipper_acceleration(index, &flipper, spec.drive(&flipper, swing, span), offset);
+        let guess = FlipperMotion { from: offset, swing, speed, acceleration };
+        let middle = offset + 0.5 * span;
+        let halfway = FlipperState { swing: guess.swing_at(middle), speed: guess.speed_at(middle), ..flipper };
+        let drive = spec.drive(&flipper, guess.swing_at(offset + span), span);
+        FlipperMotion { acceleration: self.flipper_acceleration(index, &halfway, drive, middle), ..guess }
     }
 
-    /// What the torque of coil or spring and the balls lying on it make of a flipper, `later` seconds into the tick.
-    fn flipper_acceleration(&self, index: usize, flipper: &FlipperState, drive: f64, later: f64) -> f64 {
+    /// The load on a flipper has changed: it goes on from `offset` with what follows from that.
+    pub(super) fn reload_flipper(&mut self, index: usize, offset: f64) {
+        let Some(motion) = self.flipper_motions[index] else { return };
+        let flipper = &mut self.state.flippers[index];
+        (flipper.swing, flipper.speed) = (motion.swing_at(offset), motion.speed_at(offset));
+        let flipper = *flipper;
+        self.flipper_motions[index] = Some(self.flipper_motion(index, flipper, offset));
+    }
+
+    /// Seconds from `offset` on for which a ball on a flipper that turns at `speed` follows one parabola.
+    pub(super) fn flipper_piece(&self, speed: f64, offset: f64) -> f64 {
+        let (left, turned) = (self.scene.tick_seconds - offset, PIECE_ANGLE / speed.abs());
+        if turned < left { turned } else { left }
+    }
+
+    /// The balls that a moving flipper carries.
+    fn on_flipper(&self, index: usize) -> impl Iterator<Item = &Ball> {
+        self.state.balls.iter().filter(move |ball| ball.support == Support::Flipper(index as u16))
+    }
+
+    /// What the torque of coil or spring and the balls lying on it make of a flipper, `offset` seconds into the tick.
+    fn flipper_acceleration(&self, index: usize, flipper: &FlipperState, drive: f64, offset: f64) -> f64 {
         let scene = &self.scene;
         let spec = &scene.flippers[index];
         let (mut torque, mut inertia) = (drive, spec.inertia);
-        for ball in self.state.balls.iter().filter(|ball| ball.support == Support::Flipper(index as u16)) {
-            let (position, velocity) = ball.at(Instant::start_of(self.state.tick), scene.tick_seconds);
-            let center = position + velocity * later;
+        for ball in self.on_flipper(index) {
+            let (center, velocity) = ball.at(Instant { tick: self.state.tick, offset }, scene.tick_seconds);
             let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.radius(ball.kind));
             let mass = scene.mass(ball.kind);
             // What the flipper must push the ball with, beyond the change of its own turn.
-            let push = carried.acceleration - scene.gravity.dot(carried.normal);
+            let push = carried.acceleration - self.pull_at(ball).dot(carried.normal);
             if carried.lever * drive / spec.inertia + push > 0.0 {
                 torque -= mass * carried.lever * push;
                 inertia += mass * carried.lever * carried.lever;

@@ -4,14 +4,12 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::{MOST_SPEED, PLASTIC_SHARE};
-use super::contact::{Response, Settled, Surface, respond, settle};
-use super::flipper::FlipperRest;
+use super::contact::{Moment, Response, Settled, Surface, respond, settle};
 use super::motion::{Next, Span};
-use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact};
+use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact, lever};
 use super::scene::{Collider, Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
-use crate::math::tangent;
 
 /// One thing that happens within a tick.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +22,8 @@ enum Happening {
     Plunger(usize, usize, MoverImpact),
     /// Two balls meet, the one with the lower place first.
     Balls(usize, usize),
+    /// A flipper has turned so far that a ball on it begins a new piece of flight.
+    Turned(usize),
     /// A flipper reaches an end stop, `true`: the upper one.
     FlipperStop(usize, bool),
     /// A plunger that was let go reaches home.
@@ -41,6 +41,7 @@ impl World {
                 Happening::Flipper(ball, flipper, impact) => self.meet_flipper(ball, flipper, impact),
                 Happening::Plunger(ball, plunger, impact) => self.meet_plunger(ball, plunger, impact),
                 Happening::Balls(one, other) => self.meet_balls(one, other, offset),
+                Happening::Turned(ball) => self.next_piece_of_flipper(ball, offset),
                 Happening::FlipperStop(flipper, raised) => self.stop_flipper(flipper, raised, offset),
                 Happening::PlungerHome(plunger) => self.stop_plunger(plunger, offset),
             }
@@ -63,6 +64,10 @@ impl World {
             if let Some((offset, happening)) = self.next_mover(ball, clock, limit) {
                 limit = offset;
                 earliest = Some((offset, happening));
+            }
+            if let Some(offset) = self.next_piece(ball).filter(|&offset| offset < limit) {
+                limit = offset;
+                earliest = Some((if offset > clock { offset } else { clock }, Happening::Turned(ball)));
             }
         }
         if self.scene.needs.ball_ball
@@ -159,8 +164,12 @@ impl World {
         match next {
             Next::ClearUntil(_) | Next::Escapes(_) => {}
             Next::LeavesSupport(_) => {
-                self.refresh_spin(ball, position, velocity);
-                self.start_flight(ball, offset, position, velocity, None, None);
+                self.refresh_spin(ball, offset, position, velocity);
+                if self.state.balls[ball].slide.is_some_and(|slide| slide.until.is_some_and(|until| until <= t)) {
+                    self.grip(ball, offset, position, velocity);
+                } else {
+                    self.start_flight(ball, offset, position, velocity, None, None);
+                }
             }
             Next::Meets { collider: index, .. } => {
                 let Collider { role, element, .. } = self.scene.colliders[usize::from(index)];
@@ -196,7 +205,7 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        let Collider { ref shape, role, element, material, .. } = self.scene.colliders[usize::from(index)];
+        let Collider { ref shape, role, element, material, presence, .. } = self.scene.colliders[usize::from(index)];
         let (normal, rest_speed) = (shape.normal_at(position), self.scene.rest_speed);
         let speed = -velocity.dot(normal);
         let mut kick = 0.0;
@@ -209,10 +218,22 @@ impl World {
             Role::Target { threshold, .. } if speed >= threshold => kind = EventKind::Felled { element, speed },
             _ => {}
         }
-        self.refresh_spin(ball, position, velocity);
+        self.refresh_spin(ball, offset, position, velocity);
         let surface = Surface { normal, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick };
-        let (radius, mass) = (self.radius(ball), self.mass(ball));
-        let after = respond(velocity, self.state.balls[ball].spin, radius, mass, &surface);
+        let (radius, mass, spin) = (self.radius(ball), self.mass(ball), self.state.balls[ball].spin);
+        if let Some(gives_way) = self.gives_way(presence, position, normal, radius) {
+            let after = respond(velocity, spin, radius, mass, &gives_way.surface(surface));
+            if let Some(flipper_speed) = gives_way.speed_after(&after) {
+                self.state.balls[ball].spin = after.spin;
+                self.start_flight(ball, offset, position, after.velocity, None, None);
+                self.leave_stop(gives_way.flipper, offset, flipper_speed);
+                let support = Support::Flipper(gives_way.flipper as u16);
+                self.leave_mover(ball, offset, position, after.velocity, normal, support);
+                self.tell_touch(ball, offset, position, element, speed);
+                return;
+            }
+        }
+        let after = respond(velocity, spin, radius, mass, &surface);
         self.state.balls[ball].spin = after.spin;
         let before = match self.state.balls[ball].support {
             Support::Line(i) | Support::Arc(i) => Some(i),
@@ -243,7 +264,7 @@ impl World {
             };
             if falls {
                 let (position, velocity) = self.ball_at(ball, offset);
-                self.refresh_spin(ball, position, velocity);
+                self.refresh_spin(ball, offset, position, velocity);
                 self.start_flight(ball, offset, position, velocity, None, None);
             }
         }
@@ -258,7 +279,7 @@ impl World {
         let start = Instant { tick: self.state.tick, offset };
         let ball_state = &mut self.state.balls[ball];
         ball_state.flight = Flight { start, position, velocity: DVec2::ZERO, acceleration: DVec2::ZERO };
-        ball_state.support = Support::Stalled;
+        (ball_state.support, ball_state.slide) = (Support::Stalled, None);
         ball_state.past = Some((0.0, u16::MAX));
         self.flight_changed(ball);
         self.next[ball] = Some(Next::ClearUntil(f64::INFINITY));
@@ -274,10 +295,10 @@ impl World {
         }
         let radius = self.radius(ball);
         let surface = flipper.surface(offset, position, normal, radius);
-        let lever = flipper.lever(position - normal * radius, normal);
+        let lever = lever(flipper.spec, position - normal * radius, normal);
         let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
         let speed = (surface.velocity - velocity).dot(normal);
-        let after = self.push_by(ball, position, velocity, &surface);
+        let after = self.push_by(ball, offset, position, velocity, &surface);
         motion.swing = motion.swing_at(offset);
         motion.speed = motion.speed_at(offset) - after.impulse * lever / inertia;
         motion.from = offset;
@@ -299,7 +320,7 @@ impl World {
         let surface = plunger.surface(offset, position, normal, self.radius(ball));
         let (mut motion, element, mass, held) = (plunger.motion, plunger.spec.element, plunger.spec.mass, plunger.held);
         let speed = (surface.velocity - velocity).dot(normal);
-        let after = self.push_by(ball, position, velocity, &surface);
+        let after = self.push_by(ball, offset, position, velocity, &surface);
         motion.pull = motion.pull_at(offset);
         motion.speed = motion.speed_at(offset) + if held { 0.0 } else { after.impulse / mass };
         motion.from = offset;
@@ -322,14 +343,14 @@ impl World {
     }
 
     /// The impulse between a ball and a moving surface.
-    fn push_by(&mut self, ball: usize, position: DVec2, velocity: DVec2, surface: &Surface) -> Response {
+    fn push_by(&mut self, ball: usize, offset: f64, position: DVec2, velocity: DVec2, surface: &Surface) -> Response {
         self.impacts[ball] += 1;
         // Too many impacts within one tick: the rest of them takes all of the bounce.
         let mut surface = *surface;
         if self.is_hammered(ball) {
             surface.material.restitution = 0.0;
         }
-        self.refresh_spin(ball, position, velocity);
+        self.refresh_spin(ball, offset, position, velocity);
         let (radius, mass) = (self.radius(ball), self.mass(ball));
         let subject = &mut self.state.balls[ball];
         let after = respond(velocity, subject.spin, radius, mass, &surface);
@@ -354,30 +375,11 @@ impl World {
         let stuck = self.is_hammered(ball);
         if leaving <= self.scene.rest_speed || stuck {
             self.state.balls[ball].support = support;
-            self.follow_surface(ball, offset);
+            if let Support::Flipper(index) = support {
+                self.reload_flipper(usize::from(index), offset);
+            }
+            self.follow_mover(ball, support, offset, false);
         }
-    }
-
-    fn stop_flipper(&mut self, index: usize, raised: bool, offset: f64) {
-        let Some(mut motion) = self.flipper_motions[index] else { return };
-        let spec = &self.scene.flippers[index];
-        let (swing, speed, rest) = spec.at_stop(raised, motion.speed_at(offset));
-        let flipper = &mut self.state.flippers[index];
-        (flipper.swing, flipper.speed, flipper.rest) = (swing, speed, rest);
-        if rest == FlipperRest::Moving {
-            (motion.swing, motion.speed, motion.from) = (swing, speed, offset);
-            self.flipper_motions[index] = Some(motion);
-        } else {
-            self.flipper_motions[index] = None;
-        }
-        self.flipper_changed(index, offset, false);
-    }
-
-    fn stop_plunger(&mut self, index: usize, offset: f64) {
-        let plunger = &mut self.state.plungers[index];
-        (plunger.home, plunger.pull, plunger.speed) = (true, 0.0, 0.0);
-        self.plunger_motions[index] = None;
-        self.plunger_changed(index, offset, false);
     }
 
     /// Begins a new flight, along whatever the ball lies on after touching `hit` and lying on `before`.
@@ -390,18 +392,20 @@ impl World {
         hit: Option<u16>,
         before: Option<u16>,
     ) {
-        let spin = self.state.balls[ball].spin;
         let is_possible = velocity.length_squared() <= MOST_SPEED * MOST_SPEED;
         let velocity = if is_possible { velocity } else { velocity * (MOST_SPEED / velocity.length()) };
+        let (spin, radius, pull) = (self.state.balls[ball].spin, self.radius(ball), self.pull_on(ball));
+        let ahead = 0.5 * (self.scene.tick_seconds - offset);
         let settled = if self.scene.needs.contact {
-            settle(&self.scene, self.radius(ball), position, velocity, spin, hit, before)
+            settle(&self.scene, &Moment { radius, position, velocity, spin, pull, ahead }, hit, before)
         } else {
-            Settled { velocity, acceleration: DVec2::ZERO, spin, support: Support::None }
+            Settled { velocity, acceleration: pull, spin, slide: None, support: Support::None }
         };
         let start = Instant { tick: self.state.tick, offset };
         let subject = &mut self.state.balls[ball];
         subject.flight = Flight { start, position, velocity: settled.velocity, acceleration: settled.acceleration };
         subject.spin = settled.spin;
+        subject.slide = settled.slide;
         subject.support = settled.support;
         subject.past = None;
         self.flight_changed(ball);
@@ -411,17 +415,6 @@ impl World {
     pub(super) fn flight_changed(&mut self, ball: usize) {
         self.next[ball] = None;
         self.meetings.flight_changed(ball);
-    }
-
-    /// The spin kept with a flight is that of its start; a ball that has since rolled along a surface has spun up.
-    pub(super) fn refresh_spin(&mut self, ball: usize, position: DVec2, velocity: DVec2) {
-        if let Support::Line(index) | Support::Arc(index) = self.state.balls[ball].support {
-            let collider = &self.scene.colliders[usize::from(index)];
-            if collider.material.friction > 0.0 {
-                let along = tangent(collider.shape.normal_at(position));
-                self.state.balls[ball].spin = -velocity.dot(along) / self.radius(ball);
-            }
-        }
     }
 
     fn take_out(&mut self, ball: usize, offset: f64, position: DVec2, kind: EventKind) {

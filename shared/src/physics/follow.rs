@@ -1,14 +1,16 @@
 //! Balls that follow a curved or a moving surface, tick by tick, and what becomes of them when a moving surface comes
 //! to rest or starts.
 //!
-//! Such a motion is no parabola. For the rest of a tick it is taken for one, with the surface's curvature and
-//! acceleration in it, and put back on the surface at the next tick: an error that falls with the tick's length.
+//! Such a motion is no parabola. For the rest of a tick, or until the flipper that carries it has turned by
+//! [`super::constants::PIECE_ANGLE`], it is taken for one, with the surface's curvature and acceleration in it, and is then put back on the
+//! surface: an error that falls with the tick's length.
 
 use glam::DVec2;
 
-use super::ball::{Flight, Instant, Support};
-use super::constants::{LOST_CONTACT, ROLLING_SHARE};
+use super::ball::{Flight, Instant, Slide, Support};
+use super::constants::{LOST_CONTACT, SPHERE_INERTIA};
 use super::flipper::Nearest;
+use super::friction::{Friction, Rub};
 use super::movers::{Mover, MovingFlipper};
 use super::scene::Presence;
 use super::shapes::Shape;
@@ -32,7 +34,10 @@ impl World {
                 self.start_flight(ball, offset, position, velocity, None, None);
             }
             Support::Arc(index) => self.follow_arc(ball, index, offset),
-            support @ (Support::Flipper(_) | Support::Plunger(_)) => self.follow_mover(ball, support, offset),
+            support @ (Support::Flipper(_) | Support::Plunger(_)) => {
+                let rolls = self.state.balls[ball].slide.is_none();
+                self.follow_mover(ball, support, offset, rolls);
+            }
         }
     }
 
@@ -43,28 +48,38 @@ impl World {
         let reach = arc.reach(self.radius(ball));
         let radial = position - arc.center;
         if !arc.spans(radial) {
+            self.refresh_spin(ball, offset, position, velocity);
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
         }
         // Back onto the surface, at the speed that it has there by its energy: the piece of parabola alone would gain
         // the square of the angle that it turned by.
         let outward = radial.normalize();
-        let along = tangent(outward);
+        let along = tangent(outward * arc.sign());
         let place = arc.center + outward * reach;
-        let piece = &self.state.balls[ball].flight;
-        let share = collider.material.rolling_share();
-        let fallen = self.scene.gravity.dot(place - piece.position);
-        let square = piece.velocity.length_squared() + 2.0 * share * fallen;
+        let subject = &self.state.balls[ball];
+        let piece = &subject.flight;
+        let way = place - piece.position;
+        let worked = self.pull_on(ball).dot(way);
+        let gained = match subject.slide {
+            Some(Slide { spin_rate, .. }) => worked + spin_rate * SPHERE_INERTIA * self.radius(ball) * way.dot(along),
+            None => collider.material.rolling_share() * worked,
+        };
+        let square = piece.velocity.length_squared() + 2.0 * gained;
         let estimate = velocity.dot(along);
         let speed = if square > 0.0 { square.sqrt().copysign(estimate) } else { estimate };
-        self.refresh_spin(ball, place, along * speed);
+        self.refresh_spin(ball, offset, place, along * speed);
         self.start_flight(ball, offset, place, along * speed, Some(index), None);
     }
 
-    /// A ball on a moving surface takes over its normal velocity and acceleration, as long as that presses it.
-    fn follow_mover(&mut self, ball: usize, support: Support, offset: f64) {
+    /// A ball on a moving surface takes over its normal velocity and acceleration, as long as that presses it. One that
+    /// `rolls` goes on rolling; one that has just landed slips first.
+    pub(super) fn follow_mover(&mut self, ball: usize, support: Support, offset: f64, rolls: bool) {
         let radius = self.radius(ball);
         let (position, velocity) = self.ball_at(ball, offset);
+        if self.state.balls[ball].slide.is_some() {
+            self.refresh_spin(ball, offset, position, velocity);
+        }
         let Some(Nearest { distance, normal, .. }) = self.mover_nearest(support, offset, position) else {
             self.start_flight(ball, offset, position, velocity, None, None);
             return;
@@ -76,39 +91,79 @@ impl World {
             return;
         }
         let position = position - normal * gap;
-        let contact = position - normal * radius;
-        let surface = self.mover_velocity(support, offset, contact);
+        let surface = self.mover_velocity(support, offset, position - normal * radius);
         let leaving = (velocity - surface).dot(normal);
-        let along = tangent(normal);
-        let slide = (velocity - surface).dot(along);
-        let pull = self.mover_pull(support, offset, position, velocity, radius);
+        let speed = (velocity - surface).dot(tangent(normal));
+        let friction = self.mover_friction(support);
+        if rolls && friction > 0.0 {
+            self.state.balls[ball].spin = -speed / radius;
+        }
+        let pull = self.pull_on(ball);
+        let push = self.mover_push(support, offset, position, velocity, radius);
         // Pressed on by less than nothing: it flies.
-        if leaving > self.scene.rest_speed || pull <= self.scene.gravity.dot(normal) {
+        let velocity = if leaving > self.scene.rest_speed { velocity } else { velocity - normal * leaving };
+        if leaving > self.scene.rest_speed || push <= pull.dot(normal) {
             self.start_flight(ball, offset, position, velocity, None, None);
+            if let Support::Flipper(index) = support {
+                self.reload_flipper(usize::from(index), offset);
+            }
             return;
         }
-        let velocity = velocity - normal * leaving;
-        // As it is in the middle of what is left of the tick, if it is still pressed there: an error of third order in
-        // the tick's length.
-        let half = 0.5 * (self.scene.tick_seconds - offset);
+        // As it is in the middle of this piece, if it is still pressed there: an error of third order in
+        // its length.
+        let half = 0.5 * self.piece(support, offset);
         let middle = position + velocity * half;
-        let (normal, pull) = self
+        let (normal, push) = self
             .mover_nearest(support, offset + half, middle)
-            .map(|nearest| (nearest.normal, self.mover_pull(support, offset + half, middle, velocity, radius)))
-            .filter(|(normal, pull)| *pull > self.scene.gravity.dot(*normal))
-            .unwrap_or((normal, pull));
+            .map(|nearest| (nearest.normal, self.mover_push(support, offset + half, middle, velocity, radius)))
+            .filter(|(normal, push)| *push > pull.dot(*normal))
+            .unwrap_or((normal, push));
         let along = tangent(normal);
-        let acceleration = normal * pull + along * (self.scene.gravity.dot(along) * ROLLING_SHARE);
+        let carried = self.mover_acceleration(support, offset + half, middle - normal * radius);
+        let rub =
+            Rub { friction, speed, spin: self.state.balls[ball].spin, radius, pulled: (pull - carried).dot(along) };
+        let Friction { along: rubbed, slide } = rub.against(push - pull.dot(normal));
+        let acceleration = normal * push + along * (pull.dot(along) + rubbed);
         let subject = &mut self.state.balls[ball];
         let start = Instant { tick: self.state.tick, offset };
         subject.flight = Flight { start, position, velocity, acceleration };
-        subject.spin = -slide / radius;
+        subject.slide = slide;
         subject.past = None;
         self.flight_changed(ball);
     }
 
+    /// When in this tick a ball that a flipper carries begins its next piece of flight: the offset.
+    pub(super) fn next_piece(&self, ball: usize) -> Option<f64> {
+        let subject = &self.state.balls[ball];
+        let start = subject.flight.start.offset;
+        let offset = start + self.piece(subject.support, start);
+        (matches!(subject.support, Support::Flipper(_)) && offset < self.scene.tick_seconds).then_some(offset)
+    }
+
+    /// Seconds for which a ball on a moving surface follows one parabola from `offset` on.
+    fn piece(&self, support: Support, offset: f64) -> f64 {
+        match support {
+            Support::Flipper(index) => {
+                let motion = self.flipper_motions[usize::from(index)];
+                self.flipper_piece(motion.map_or(0.0, |motion| motion.speed_at(offset)), offset)
+            }
+            _ => self.scene.tick_seconds - offset,
+        }
+    }
+
+    /// A flipper has turned so far that it and the balls on it begin a new piece of their motion.
+    pub(super) fn next_piece_of_flipper(&mut self, ball: usize, offset: f64) {
+        let support @ Support::Flipper(index) = self.state.balls[ball].support else { return };
+        self.reload_flipper(usize::from(index), offset);
+        for ball in 0..self.state.balls.len() {
+            if self.state.balls[ball].support == support {
+                self.follow_surface(ball, offset);
+            }
+        }
+    }
+
     /// The moving surface that a ball lies on; `None` once it moves no more.
-    fn mover_nearest(&self, support: Support, offset: f64, point: DVec2) -> Option<Nearest> {
+    pub(super) fn mover_nearest(&self, support: Support, offset: f64, point: DVec2) -> Option<Nearest> {
         let nearest = match support {
             Support::Flipper(i) => self.moving_flipper(usize::from(i))?.nearest(offset, point),
             Support::Plunger(i) => self.moving_plunger(usize::from(i))?.nearest(offset, point),
@@ -128,7 +183,7 @@ impl World {
     }
 
     /// Acceleration along the surface's normal of a ball that is carried by it.
-    fn mover_pull(&self, support: Support, offset: f64, center: DVec2, velocity: DVec2, radius: f64) -> f64 {
+    fn mover_push(&self, support: Support, offset: f64, center: DVec2, velocity: DVec2, radius: f64) -> f64 {
         match support {
             Support::Flipper(i) => {
                 let Some(MovingFlipper { spec, motion }) = self.moving_flipper(usize::from(i)) else { return 0.0 };
@@ -139,6 +194,31 @@ impl World {
             Support::Plunger(i) => {
                 self.moving_plunger(usize::from(i)).map_or(0.0, |plunger| -plunger.motion.acceleration)
             }
+            _ => 0.0,
+        }
+    }
+
+    /// Acceleration of the moving surface's point at `contact`.
+    fn mover_acceleration(&self, support: Support, offset: f64, contact: DVec2) -> DVec2 {
+        match support {
+            Support::Flipper(i) => {
+                self.moving_flipper(usize::from(i)).map_or(DVec2::ZERO, |MovingFlipper { spec, motion }| {
+                    let (arm, turn) = (contact - spec.pivot, motion.speed_at(offset));
+                    arm.perp() * spec.turn_rate(motion.acceleration) - arm * (turn * turn)
+                })
+            }
+            Support::Plunger(i) => self
+                .moving_plunger(usize::from(i))
+                .map_or(DVec2::ZERO, |plunger| -plunger.spec.normal * plunger.motion.acceleration),
+            _ => DVec2::ZERO,
+        }
+    }
+
+    /// Coulomb coefficient of a moving surface.
+    pub(super) fn mover_friction(&self, support: Support) -> f64 {
+        match support {
+            Support::Flipper(i) => self.scene.flippers[usize::from(i)].material.friction,
+            Support::Plunger(i) => self.scene.plungers[usize::from(i)].material.friction,
             _ => 0.0,
         }
     }
@@ -183,12 +263,13 @@ impl World {
             };
             let (position, velocity) = self.ball_at(ball, offset);
             if lies_on || is_near(position) {
-                self.refresh_spin(ball, position, velocity);
+                self.refresh_spin(ball, offset, position, velocity);
             }
             if lies_on {
+                let slide = self.state.balls[ball].slide;
                 self.start_flight(ball, offset, position, velocity, None, None);
                 if moves {
-                    self.state.balls[ball].support = support;
+                    (self.state.balls[ball].support, self.state.balls[ball].slide) = (support, slide);
                 }
             } else if is_near(position) {
                 let subject = &mut self.state.balls[ball];

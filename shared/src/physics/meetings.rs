@@ -139,7 +139,7 @@ impl World {
             material.restitution = 0.0;
         }
         for (ball, (place, velocity)) in [one, other].into_iter().zip(places.into_iter().zip(velocities)) {
-            self.refresh_spin(ball, place, velocity);
+            self.refresh_spin(ball, offset, place, velocity);
         }
         let body = |ball: usize, velocity: DVec2| Body {
             velocity,

@@ -46,12 +46,12 @@ pub(super) struct MovingFlipper<'a> {
     pub(super) motion: FlipperMotion,
 }
 
-impl MovingFlipper<'_> {
-    /// Lever arm of a push along `normal` at `contact`, in the sense of the swing, m.
-    pub(super) fn lever(&self, contact: DVec2, normal: DVec2) -> f64 {
-        self.spec.turn_rate((contact - self.spec.pivot).perp_dot(normal))
-    }
+/// Lever arm about a flipper's pivot of a push along `normal` at `contact`, in the sense of the swing, m.
+pub(super) fn lever(spec: &FlipperSpec, contact: DVec2, normal: DVec2) -> f64 {
+    spec.turn_rate((contact - spec.pivot).perp_dot(normal))
+}
 
+impl MovingFlipper<'_> {
     /// When it reaches an end stop: the offset, and whether it is the upper one.
     pub(super) fn meets_stop(&self, from: f64, until: f64) -> Option<(f64, bool)> {
         let motion = &self.motion;
@@ -97,7 +97,7 @@ impl Mover for MovingFlipper<'_> {
 
     fn surface(&self, offset: f64, center: DVec2, normal: DVec2, radius: f64) -> Surface {
         let contact = center - normal * radius;
-        let lever = self.lever(contact, normal);
+        let lever = lever(self.spec, contact, normal);
         Surface {
             normal,
             velocity: self.velocity(offset, contact),

@@ -86,6 +86,11 @@ impl Needs {
         }
     }
 
+    /// Whether a ball can slide along a surface that has friction.
+    pub const fn slides(self) -> bool {
+        self.spin && self.contact
+    }
+
     /// Each need, in the order of [`Self::NAMES`].
     pub const fn flags(self) -> [bool; 12] {
         [

@@ -177,12 +177,16 @@ impl WorldState {
         let in_tick = start.tick <= self.tick && start.offset >= 0.0 && start.offset <= scene.tick_seconds;
         let past_is_a_number = ball.past.is_none_or(|(t, _)| t.is_finite());
         let dt = scene.tick_seconds;
+        let slide_is_possible = ball.slide.is_none_or(|slide| {
+            slide.spin_rate.is_finite() && slide.until.is_none_or(|until| until >= 0.0 && until.is_finite())
+        });
         let is_slow =
             ball.flight.velocity.length() <= MOST_SPEED && ball.flight.acceleration.length() * dt <= MOST_SPEED;
         if usize::from(ball.kind) >= scene.kinds.len() {
             return Err(number);
         }
-        if !(ball.flight.is_finite() && ball.spin.is_finite() && in_tick && past_is_a_number && is_slow) {
+        let is_finite = ball.flight.is_finite() && ball.spin.is_finite();
+        if !(is_finite && in_tick && past_is_a_number && slide_is_possible && is_slow) {
             return Err(number);
         }
         // No world has a ball beside its table, and none that has flown for years.

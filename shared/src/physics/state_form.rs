@@ -3,7 +3,7 @@
 //!
 //! | always | if needed |
 //! |---|---|
-//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin, kind, floor; flippers, plungers, targets |
+//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets |
 
 use core::fmt;
 
@@ -117,8 +117,9 @@ struct OneBall<'a> {
 
 impl Serialize for OneBall<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (needs, Ball { id, kind, floor, flight, spin, support, past }) = (self.needs, self.ball);
-        let extra = [needs.contact, needs.spin, needs.kinds, needs.floors].into_iter().filter(|&needed| needed).count();
+        let (needs, Ball { id, kind, floor, flight, spin, support, slide, past }) = (self.needs, self.ball);
+        let extra = [needs.contact, needs.spin, needs.slides(), needs.kinds, needs.floors];
+        let extra = extra.into_iter().filter(|&needed| needed).count();
         let mut tuple = serializer.serialize_tuple(6 + extra)?;
         tuple.serialize_element(id)?;
         tuple.serialize_element(&flight.start)?;
@@ -131,6 +132,9 @@ impl Serialize for OneBall<'_> {
         }
         if needs.spin {
             tuple.serialize_element(spin)?;
+        }
+        if needs.slides() {
+            tuple.serialize_element(slide)?;
         }
         if needs.kinds {
             tuple.serialize_element(kind)?;
@@ -181,7 +185,7 @@ impl<'de> DeserializeSeed<'de> for BallSeed {
     type Value = Ball;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Ball, D::Error> {
-        deserializer.deserialize_tuple(10, self)
+        deserializer.deserialize_tuple(11, self)
     }
 }
 
@@ -202,9 +206,10 @@ impl<'de> Visitor<'de> for BallSeed {
         let past = next(&mut seq, "past")?;
         let acceleration = if needs.contact { next(&mut seq, "acceleration")? } else { DVec2::ZERO };
         let spin = if needs.spin { next(&mut seq, "spin")? } else { 0.0 };
+        let slide = if needs.slides() { next(&mut seq, "slide")? } else { None };
         let kind = if needs.kinds { next(&mut seq, "kind")? } else { 0 };
         let floor = if needs.floors { next(&mut seq, "floor")? } else { 0 };
         let flight = Flight { start, position, velocity, acceleration };
-        Ok(Ball { id, kind, floor, flight, spin, support, past })
+        Ok(Ball { id, kind, floor, flight, spin, support, slide, past })
     }
 }

@@ -247,7 +247,8 @@ impl World {
         self.state.served = id.wrapping_add(1);
         let start = Instant::start_of(self.state.tick);
         let flight = Flight { start, position, velocity, acceleration: self.scene.gravity };
-        self.state.balls.push(Ball { id, kind, floor: 0, flight, spin: 0.0, support: Support::None, past: None });
+        let ball = Ball { id, kind, floor: 0, flight, spin: 0.0, support: Support::None, slide: None, past: None };
+        self.state.balls.push(ball);
         self.next.push(None);
         self.meetings.forget(self.state.balls.len());
         self.wake();

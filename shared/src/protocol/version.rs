@@ -8,7 +8,7 @@ use super::frame::encode;
 use super::message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome};
 use crate::game::{Action, GameEvent, GameEventKind, GameState, Phase};
 use crate::math::Digest;
-use crate::physics::ball::{Ball, Flight, Instant, Support};
+use crate::physics::ball::{Ball, Flight, Instant, Slide, Support};
 use crate::physics::flipper::{FlipperRest, FlipperState};
 use crate::physics::needs::Needs;
 use crate::physics::plunger::PlungerState;
@@ -167,8 +167,16 @@ pub(super) fn sample_snapshot() -> Snapshot {
         Support::Flipper(0),
         Support::Plunger(0),
     ];
-    let balls =
-        supports.map(|support| Ball { id: 7, kind: 1, floor: 1, flight, spin: 1.5, support, past: Some((0.5, 3)) });
+    let balls = supports.map(|support| Ball {
+        id: 7,
+        kind: 1,
+        floor: 1,
+        flight,
+        spin: 1.5,
+        support,
+        slide: Some(Slide { until: Some(0.5), spin_rate: 2.5 }),
+        past: Some((0.5, 3)),
+    });
     let rests = [FlipperRest::AtRest, FlipperRest::Raised, FlipperRest::Moving];
     let world = WorldState {
         needs: Needs::ALL,

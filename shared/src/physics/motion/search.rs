@@ -177,11 +177,19 @@ fn along_cells(
     Found::ClearUntil(from)
 }
 
-/// When a ball reaches the end of the straight surface that it lies on, seconds since its flight's start.
+/// When a ball that lies on something reaches the end of it, or grips it after sliding; seconds since its flight's start.
 pub(super) fn support_ends(scene: &Scene, ball: &Ball) -> Option<f64> {
-    let Support::Line(index) = ball.support else { return None };
-    let Shape::Segment(segment) = &scene.colliders[usize::from(index)].shape else { return None };
-    leaves_segment(&ball.flight, segment, &Search::whole()).time()
+    let grips = ball.slide.and_then(|slide| slide.until);
+    let leaves = match (ball.support, ball.support_collider(scene).map(|collider| &collider.shape)) {
+        (Support::Line(_), Some(Shape::Segment(segment))) => {
+            leaves_segment(&ball.flight, segment, &Search::whole()).time()
+        }
+        _ => None,
+    };
+    match (grips, leaves) {
+        (Some(a), Some(b)) => Some(if a < b { a } else { b }),
+        (one, None) | (None, one) => one,
+    }
 }
 
 /// Seconds from `from` on in which a path goes about `length` metres.

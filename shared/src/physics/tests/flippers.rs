@@ -201,12 +201,21 @@ fn shot(tick_hz: u32, share: f64) -> DVec2 {
     let (axis, ms) = (spec.direction(0.0), tick_hz / 1000);
     let start = spec.pivot + axis * (spec.length * share) + axis.perp() * 0.03;
     let nearest = spec.nearest(axis, start);
-    launch(&mut world, start - nearest.normal * (nearest.distance - 0.0135), axis * 0.2);
+    let along = crate::math::tangent(nearest.normal);
+    launch(&mut world, start - nearest.normal * (nearest.distance - 0.0135), along * 0.2);
     run(&mut world, 30 * ms);
     world.press(false, true);
-    run(&mut world, 30 * ms);
-    assert!(deepest_overlap(&world, ball(&world, 0).0) < 1e-4);
-    ball(&world, 0).1
+    // Until it is clear of the flipper, however far that still turns.
+    for _ in 0..100 * ms {
+        run(&mut world, 1);
+        let (position, velocity) = ball(&world, 0);
+        assert!(deepest_overlap(&world, position) < 1e-5);
+        let gap = spec.nearest(spec.direction(world.state.flippers[0].swing), position).distance - 0.0135;
+        if gap > 0.002 {
+            return velocity;
+        }
+    }
+    panic!("the ball still lies on the flipper: {:?}", world.state.balls[0])
 }
 
 /// The farther towards the tip the ball is, the more it goes to the far side.
@@ -223,10 +232,10 @@ fn the_place_on_the_flipper_aims_the_shot() {
     assert!(aims.windows(2).all(|pair| pair[0].0 < pair[1].0), "{aims:.2?}");
 }
 
-/// A ball that a flipper pushes follows it piece by piece, one a tick. What remains does not fall smoothly with the
-/// tick: where the push ends, the ball may hop on the flipper once more or not.
+/// Broke: a flipper kept the acceleration that it had at a tick's start, also when the ball on it rolled onto its tip, or left
+/// it: the ball lifted off too early and was hit once more, up to 6 % harder.
 #[test]
-fn halving_the_tick_changes_a_shot_by_less_than_three_percent() {
+fn halving_the_tick_changes_a_shot_by_less_than_a_percent() {
     let mut worst = 0.0_f64;
     for place in 0..12 {
         let share = 0.35 + 0.05 * f64::from(place);
@@ -234,7 +243,7 @@ fn halving_the_tick_changes_a_shot_by_less_than_three_percent() {
         worst = worst.max((coarse - fine).length() / fine.length());
     }
     println!("halving the tick changes a shot by {:.3}%", worst * 100.0);
-    assert!(worst < 0.03, "a shot changes by {:.3}%", worst * 100.0);
+    assert!(worst < 0.01, "a shot changes by {:.3}%", worst * 100.0);
 }
 
 /// Broke: a flipper pushed a ball around without feeling that it had to bend the ball's path, and the pair of them got
@@ -279,4 +288,32 @@ fn ever_smaller_hops_on_a_rising_flipper_come_to_an_end() {
     run(&mut world, 30);
     let (_, velocity) = ball(&world, 0);
     assert!(velocity.y > 2.0, "which shoots it up: {velocity}");
+}
+
+/// A ball that falls hard on a raised flipper drives it off its stop; one that falls softly does not.
+#[test]
+fn a_hard_shot_drops_a_held_flipper_a_little() {
+    let lowest = |speed: f64| {
+        let mut world = flipper_world();
+        world.press(false, true);
+        run(&mut world, 200);
+        let spec = world.scene.flippers[0].clone();
+        let axis = spec.direction(spec.stroke);
+        let normal = spec.nearest(axis, spec.pivot + axis * 0.045 + axis.perp() * 0.05).normal;
+        let touches = spec.pivot + axis * 0.045 + normal * (0.0135 + 0.009);
+        launch(&mut world, touches + normal * 0.01, normal * -speed);
+        let mut lowest = spec.stroke;
+        for _ in 0..100 {
+            run(&mut world, 1);
+            let swing = world.state.flippers[0].swing;
+            lowest = if swing < lowest { swing } else { lowest };
+        }
+        assert_eq!(world.state.flippers[0].rest, FlipperRest::Raised, "the coil brings it back");
+        (spec.stroke - lowest).to_degrees()
+    };
+    let drops = [0.02, 0.5, 1.0, 2.0, 4.0].map(lowest);
+    println!("a held flipper that a ball meets at 0.02, 0.5, 1, 2 and 4 m/s drops by {drops:.2?} degrees");
+    assert_eq!(drops[0], 0.0);
+    assert!(drops.windows(2).all(|pair| pair[0] < pair[1]), "{drops:?}");
+    assert!(drops[2] > 1.0 && drops[2] < 6.0, "{drops:?}");
 }
