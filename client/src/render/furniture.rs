@@ -55,7 +55,7 @@ pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
         paint_piece(canvas, layout, piece);
     }
     for element in &table.elements {
-        if let ElementFile::Gate(gate) = element {
+        if let ElementFile::OneWay(gate) = element {
             gate_wire(canvas, layout, layout.written(gate.from), layout.written(gate.to));
         }
     }

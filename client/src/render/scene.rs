@@ -4,7 +4,7 @@
 use macroquad::color::WHITE;
 use macroquad::math::{Rect, Vec2, Vec3, vec2};
 use shared::table::TableFile;
-use shared::table::format::{DropTargetFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, SlingshotFile};
+use shared::table::format::{ElementFile, FlipperFile, Hand, LineFile, PlungerFile, SlingshotFile, TargetFile};
 
 use super::atlas::{Batch, Sprite};
 use super::canvas::LIGHT;
@@ -111,7 +111,7 @@ impl Stage<'_> {
     }
 
     /// A standing target is a bright face with a dark back; a fallen one leaves a slot.
-    fn drop_target(&mut self, target: &DropTargetFile, state: ElementView) {
+    fn drop_target(&mut self, target: &TargetFile, state: ElementView) {
         let (from, to) = (self.layout.written(target.from), self.layout.written(target.to));
         let width = self.layout.length(0.0060).max(3.0);
         let bar = self.sprites.bar;

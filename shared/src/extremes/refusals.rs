@@ -36,7 +36,7 @@ const TABLE: &str = r#"(format: 1, physics: 3, name: "all", size: (1.0, 1.0), ti
         Arc(name: "arc", material: "m", center: (0.5, 0.7), radius: 0.5, from: -90.0, to: 90.0),
         Post(name: "post", material: "m", center: (0.6, 0.4), radius: 0.01),
         Ring(name: "ring", material: "m", center: (0.5, 0.5), radius: 0.9),
-        Gate(name: "gate", material: "m", from: (0.47, 0.83), to: (0.71, 0.76)),
+        OneWay(name: "gate", material: "m", from: (0.47, 0.83), to: (0.71, 0.76)),
         Bumper(name: "bumper", material: "m", center: (0.35, 0.55), radius: 0.03, kick: 0.8, threshold: 0.05),
         Slingshot(name: "sling", material: "m", from: (0.1, 0.3), to: (0.25, 0.15), kick: 1.3, threshold: 0.1),
         DropTarget(name: "target", material: "m", from: (0.9, 0.55), to: (0.87, 0.61), threshold: 0.1),

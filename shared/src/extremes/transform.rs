@@ -123,7 +123,7 @@ impl Similarity {
     fn shape(&self, shape: &Shape) -> Shape {
         match shape {
             Shape::Segment(segment) => {
-                // A gate's ends change places: what is seen on the left must stay on the left.
+                // A one-way wall's ends change places: what is seen on the left must stay on the left.
                 let ends =
                     if segment.one_way && self.mirrors { [segment.b, segment.a] } else { [segment.a, segment.b] };
                 let [a, b] = ends.map(|end| self.point(end));

@@ -136,14 +136,22 @@ pub enum ElementFile {
     Ring(PostFile),
     /// A line at which a ball drops, or climbs, to another floor.
     Hole(HoleFile),
-    /// A wall that a ball passes from one side only.
-    Gate(GateFile),
+    /// A wall that a ball passes from one side only, untouched.
+    OneWay(OneWayFile),
     /// A round kicker.
     Bumper(BumperFile),
     /// A straight kicker.
     Slingshot(SlingshotFile),
     /// A target that falls when hit and is raised again by a rule.
-    DropTarget(DropTargetFile),
+    DropTarget(TargetFile),
+    /// A target that stands and notices when it is hit.
+    Target(TargetFile),
+    /// A plate on a hinge that a ball pushes through; it turns on.
+    Spinner(SpinnerFile),
+    /// A plate on a hinge that a ball pushes open; it falls shut behind it.
+    Gate(GateFile),
+    /// A hole that holds a ball until it is kicked out.
+    Saucer(SaucerFile),
     /// A line that notices a ball passing.
     Rollover(LineFile),
     /// The line below which a ball is lost.
@@ -204,6 +212,9 @@ pub struct ArcFile {
     pub from: f64,
     /// Second end, clockwise of the first, at most 360 further.
     pub to: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Post`] and [`ElementFile::Ring`].
@@ -223,10 +234,10 @@ pub struct PostFile {
     pub floor: u8,
 }
 
-/// See [`ElementFile::Gate`].
+/// See [`ElementFile::OneWay`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct GateFile {
+pub struct OneWayFile {
     /// Unique in the table.
     pub name: String,
     /// A key of `materials`.
@@ -235,6 +246,9 @@ pub struct GateFile {
     pub from: Point,
     /// Second end. Looking from the first to the second, a ball passes from left to right and is stopped from the right.
     pub to: Point,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Bumper`].
@@ -253,6 +267,9 @@ pub struct BumperFile {
     pub kick: f64,
     /// Normal speed of approach above which it kicks, m/s.
     pub threshold: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Slingshot`].
@@ -271,12 +288,15 @@ pub struct SlingshotFile {
     pub kick: f64,
     /// Normal speed of approach above which it kicks, m/s.
     pub threshold: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
-/// See [`ElementFile::DropTarget`].
+/// See [`ElementFile::DropTarget`] and [`ElementFile::Target`].
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct DropTargetFile {
+pub struct TargetFile {
     /// Unique in the table.
     pub name: String,
     /// A key of `materials`.
@@ -285,8 +305,83 @@ pub struct DropTargetFile {
     pub from: Point,
     /// Second end.
     pub to: Point,
-    /// Normal speed of approach above which it falls, m/s.
+    /// Normal speed of approach from which on it falls, or notices the hit, m/s.
     pub threshold: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
+}
+
+/// See [`ElementFile::Spinner`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpinnerFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// From the hinge down to where a ball pushes the plate, m.
+    pub lever: f64,
+    /// Of the plate about its hinge, kg m^2.
+    pub inertia: f64,
+    /// Dry friction: how fast the plate loses its spin, rad/s^2.
+    pub friction: f64,
+    /// Share of its normal speed at which a ball is thrown back that is too slow to pass.
+    pub restitution: f64,
+    /// Work that turns the plate over, J: a ball that cannot do it does not pass.
+    pub lift: f64,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
+}
+
+/// See [`ElementFile::Gate`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GateFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end. Looking from the first to the second, a ball passes a one-way gate from left to right.
+    pub to: Point,
+    /// From the hinge down to where a ball pushes the plate, m.
+    pub lever: f64,
+    /// Of the plate about its hinge, kg m^2.
+    pub inertia: f64,
+    /// Share of its normal speed at which a ball is thrown back that is too slow to pass, or comes from the closed side.
+    pub restitution: f64,
+    /// Work that opens the plate, J: a ball that cannot do it does not pass.
+    pub lift: f64,
+    /// Whether it opens to one side only.
+    pub one_way: bool,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
+}
+
+/// See [`ElementFile::Saucer`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SaucerFile {
+    /// Unique in the table.
+    pub name: String,
+    /// Centre.
+    pub center: Point,
+    /// A ball whose centre comes within it is caught, m.
+    pub radius: f64,
+    /// Speed from which on a ball passes over it, m/s.
+    pub capture: f64,
+    /// Velocity at which it throws a ball out, m/s.
+    pub kick: Point,
+    /// Seconds for which it holds a ball; left out: until a rule kicks it out.
+    #[serde(default)]
+    pub hold: Option<f64>,
+    /// The floor that it is on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Rollover`] and [`ElementFile::Drain`].
@@ -299,6 +394,9 @@ pub struct LineFile {
     pub from: Point,
     /// Second end.
     pub to: Point,
+    /// The floor that it stands on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Flipper`].
@@ -443,10 +541,13 @@ impl ElementFile {
             Self::Arc(e) => &e.name,
             Self::Post(e) | Self::Ring(e) => &e.name,
             Self::Hole(e) => &e.name,
-            Self::Gate(e) => &e.name,
+            Self::OneWay(e) => &e.name,
             Self::Bumper(e) => &e.name,
             Self::Slingshot(e) => &e.name,
-            Self::DropTarget(e) => &e.name,
+            Self::DropTarget(e) | Self::Target(e) => &e.name,
+            Self::Spinner(e) => &e.name,
+            Self::Gate(e) => &e.name,
+            Self::Saucer(e) => &e.name,
             Self::Rollover(e) | Self::Drain(e) => &e.name,
             Self::Flipper(e) => &e.name,
             Self::Plunger(e) => &e.name,

@@ -6,6 +6,7 @@ mod check;
 mod error;
 pub mod format;
 pub(crate) mod locate;
+mod mechanisms;
 mod rulebook;
 mod scene_form;
 mod shapes;

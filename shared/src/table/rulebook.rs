@@ -90,6 +90,8 @@ impl Kind {
                     E::Wall(_)
                         | E::Arc(_)
                         | E::Post(_)
+                        | E::OneWay(_)
+                        | E::Target(_)
                         | E::Gate(_)
                         | E::Bumper(_)
                         | E::Slingshot(_)

@@ -73,11 +73,11 @@ impl Bare {
 /// Of steel on steel.
 const BALL_RESTITUTION: f64 = 0.9;
 
-struct Builder<'a> {
-    context: &'a Context<'a>,
-    scene: Scene,
+pub(super) struct Builder<'a> {
+    pub(super) context: &'a Context<'a>,
+    pub(super) scene: Scene,
     /// Of the element that is being added.
-    floor: u8,
+    pub(super) floor: u8,
 }
 
 impl Builder<'_> {
@@ -106,12 +106,12 @@ impl Builder<'_> {
                     let problem = format!("it is on floor {} already; another floor would be right", hole.floor);
                     return Err(self.context.error(spot, Some("leads_to"), problem));
                 }
-                let line = LineFile { name: hole.name.clone(), from: hole.from, to: hole.to };
-                self.sensor(index, &line, Role::Hole { to: hole.leads_to })
+                self.sensor(index, hole.from, hole.to, Role::Hole { to: hole.leads_to })
             }
-            ElementFile::Gate(gate) => {
-                let material = self.material(spot, &gate.material)?;
-                let mut segment = self.segment(spot, gate.from, gate.to)?;
+            ElementFile::OneWay(wall) => {
+                let material = self.material(spot, &wall.material)?;
+                self.floor = wall.floor;
+                let mut segment = self.segment(spot, wall.from, wall.to)?;
                 segment.one_way = true;
                 self.push(index, Shape::Segment(segment), material, Role::Solid, Presence::Always);
                 Ok(())
@@ -119,31 +119,30 @@ impl Builder<'_> {
             ElementFile::Bumper(bumper) => {
                 let material = self.material(spot, &bumper.material)?;
                 let role = self.kicker(spot, bumper.kick, bumper.threshold)?;
+                self.floor = bumper.floor;
                 self.disc(index, bumper.center, bumper.radius, Side::Outside, material, role)
             }
             ElementFile::Slingshot(sling) => {
                 let material = self.material(spot, &sling.material)?;
                 let role = self.kicker(spot, sling.kick, sling.threshold)?;
+                self.floor = sling.floor;
                 let segment = self.segment(spot, sling.from, sling.to)?;
                 self.push(index, Shape::Segment(segment), material, role, Presence::Always);
                 Ok(())
             }
             ElementFile::DropTarget(target) => {
-                let material = self.material(spot, &target.material)?;
                 self.speed(spot, "threshold", target.threshold)?;
                 let place = self.scene.targets;
                 self.scene.targets += 1;
                 let role = Role::Target { index: place, threshold: target.threshold };
-                let segment = self.segment(spot, target.from, target.to)?;
-                let presence = Presence::TargetUp(place);
-                self.push(index, Shape::Segment(segment), material, role, presence);
-                for end in [target.from, target.to] {
-                    self.push(index, point(vector(end)), material, role, presence);
-                }
-                Ok(())
+                self.face(index, target, role, Presence::TargetUp(place))
             }
-            ElementFile::Rollover(line) => self.sensor(index, line, Role::Sensor),
-            ElementFile::Drain(line) => self.sensor(index, line, Role::Drain),
+            ElementFile::Target(target) => self.target(index, target),
+            ElementFile::Spinner(spinner) => self.spinner(index, spinner),
+            ElementFile::Gate(gate) => self.gate(index, gate),
+            ElementFile::Saucer(saucer) => self.saucer(index, saucer),
+            ElementFile::Rollover(line) => self.line(index, line, Role::Sensor),
+            ElementFile::Drain(line) => self.line(index, line, Role::Drain),
             ElementFile::Flipper(flipper) => self.flipper(index, flipper),
             ElementFile::Plunger(plunger) => self.plunger(index, plunger),
             ElementFile::Light(light) => {
@@ -153,12 +152,12 @@ impl Builder<'_> {
         }
     }
 
-    fn push(&mut self, element: u16, shape: Shape, material: Material, role: Role, presence: Presence) {
+    pub(super) fn push(&mut self, element: u16, shape: Shape, material: Material, role: Role, presence: Presence) {
         let bounds = shape.bounds(self.scene.largest_radius());
         self.scene.colliders.push(Collider { shape, bounds, material, element, role, presence, floor: self.floor });
     }
 
-    fn material(&self, spot: Spot<'_>, name: &str) -> Result<Material, TableError> {
+    pub(super) fn material(&self, spot: Spot<'_>, name: &str) -> Result<Material, TableError> {
         let materials = &self.context.file.materials;
         let Some(found) = materials.get(name) else {
             let known: Vec<_> = materials.keys().map(String::as_str).collect();
@@ -173,12 +172,12 @@ impl Builder<'_> {
         })
     }
 
-    fn length(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
+    pub(super) fn length(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
         let (least, most) = if self.context.is_scene { (1e-15, 1e12) } else { (1e-5, 1e3) };
         self.context.in_range(spot, field, value, least, most, "a length in metres such as 0.02")
     }
 
-    fn speed(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
+    pub(super) fn speed(&self, spot: Spot<'_>, field: &str, value: f64) -> Result<(), TableError> {
         self.context.in_range(spot, field, value, 0.0, 100.0, "a speed in m/s such as 0.8")
     }
 
@@ -188,7 +187,7 @@ impl Builder<'_> {
         Ok(Role::Kicker { speed: kick, threshold })
     }
 
-    fn segment(&self, spot: Spot<'_>, from: Point, to: Point) -> Result<Segment, TableError> {
+    pub(super) fn segment(&self, spot: Spot<'_>, from: Point, to: Point) -> Result<Segment, TableError> {
         let (a, b) = (self.context.point(spot, "from", None, from)?, self.context.point(spot, "to", None, to)?);
         self.between(spot, "to", None, a, b)
     }
@@ -255,6 +254,7 @@ impl Builder<'_> {
     fn arc(&mut self, index: u16, arc: &ArcFile) -> Result<(), TableError> {
         let spot = Spot::Element(index);
         let material = self.material(spot, &arc.material)?;
+        self.floor = arc.floor;
         let center = self.context.point(spot, "center", None, arc.center)?;
         self.length(spot, "radius", arc.radius)?;
         self.context.in_range(spot, "from", arc.from, -720.0, 720.0, "an angle in degrees such as -90")?;
@@ -278,8 +278,14 @@ impl Builder<'_> {
         Ok(())
     }
 
-    fn sensor(&mut self, index: u16, line: &LineFile, role: Role) -> Result<(), TableError> {
-        let segment = self.segment(Spot::Element(index), line.from, line.to)?;
+    fn line(&mut self, index: u16, line: &LineFile, role: Role) -> Result<(), TableError> {
+        self.floor = line.floor;
+        self.sensor(index, line.from, line.to, role)
+    }
+
+    /// A line that a ball's centre passes.
+    pub(super) fn sensor(&mut self, index: u16, from: Point, to: Point, role: Role) -> Result<(), TableError> {
+        let segment = self.segment(Spot::Element(index), from, to)?;
         let none = Material::bouncing(0.0);
         self.push(index, Shape::Segment(segment), none, role, Presence::Always);
         Ok(())
@@ -358,6 +364,6 @@ impl Builder<'_> {
 }
 
 /// A point is an arc of radius 0.
-fn point(center: DVec2) -> Shape {
+pub(super) fn point(center: DVec2) -> Shape {
     Shape::Arc(Arc { center, radius: 0.0, side: Side::Outside, span: None })
 }

@@ -29,7 +29,7 @@ const GOOD: &str = r#"(
             to: 90.0,
         ),
         Post(name: "post", material: "rubber", center: (0.2, 0.6), radius: 0.01),
-        Gate(name: "gate", material: "wood", from: (0.3, 0.6), to: (0.35, 0.6)),
+        OneWay(name: "gate", material: "wood", from: (0.3, 0.6), to: (0.35, 0.6)),
         Bumper(name: "bumper", material: "rubber", center: (0.2, 0.7), radius: 0.02, kick: 0.8, threshold: 0.05),
         Slingshot(name: "sling", material: "rubber", from: (0.1, 0.3), to: (0.1, 0.4), kick: 1.3, threshold: 0.1),
         DropTarget(name: "drop", material: "wood", from: (0.3, 0.5), to: (0.33, 0.5), threshold: 0.1),
@@ -180,16 +180,16 @@ const CASES: &[Case] = &[
     case("force: 30.0", "force: 0.0", "force", ("plunger", "force"), "30 N would be right"),
     case("radius: 0.01, color", "radius: 0.0, color", "radius", ("light", "radius"), "a length in metres"),
     // Names.
-    case("name: \"gate\"", "name: \"post\"", "Gate", ("post", "name"), "element 3 of the list has this name, too"),
-    case("name: \"gate\"", "name: \"\"", "Gate", ("", "name"), "1 to 40 printable characters"),
+    case("name: \"gate\"", "name: \"post\"", "OneWay", ("post", "name"), "element 3 of the list has this name, too"),
+    case("name: \"gate\"", "name: \"\"", "OneWay", ("", "name"), "1 to 40 printable characters"),
     case(
         "name: \"gate\"",
         "name: \"a gate with a name that is too long to be shown\"",
-        "Gate",
+        "OneWay",
         ("a gate with a name that is too long to be shown", "name"),
         "1 to 40 printable characters",
     ),
-    case("name: \"gate\"", "name: \"ga\\nte\"", "Gate", ("ga\nte", "name"), "\"ga\\nte\" is not 1 to 40 printable"),
+    case("name: \"gate\"", "name: \"ga\\nte\"", "OneWay", ("ga\nte", "name"), "\"ga\\nte\" is not 1 to 40 printable"),
     // The whole.
     case(
         "        Drain(name: \"drain\", from: (0.0, 0.05), to: (0.5, 0.05)),\n",

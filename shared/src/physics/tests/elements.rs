@@ -22,7 +22,7 @@ fn passes(events: &[EventKind], element: u16) -> usize {
 
 #[test]
 fn a_gate_lets_through_from_its_left_and_stops_from_its_right() {
-    let gate = "Gate(name: \"gate\", material: \"dead\", from: (0.5, 0.3), to: (0.5, 0.7)),";
+    let gate = "OneWay(name: \"gate\", material: \"dead\", from: (0.5, 0.3), to: (0.5, 0.7)),";
     for speed in [0.05, 0.5, 5.0, 20.0] {
         for dy in [-0.15, 0.0, 0.15] {
             // Looking up the table from the first end to the second, left is at smaller x.
@@ -185,7 +185,7 @@ fn a_ball_on_a_curve_or_a_slope_passes_each_sensor_once() {
 /// change places, were two different games after the first touch of the gate.
 #[test]
 fn a_gate_seen_in_a_mirror_has_the_same_bits() {
-    let gate = "Gate(name: \"gate\", material: \"rubber\", from: (0.3321, 0.5), to: (0.4937, 0.71)),";
+    let gate = "OneWay(name: \"gate\", material: \"rubber\", from: (0.3321, 0.5), to: (0.4937, 0.71)),";
     let world = world_with(FREE, gate);
     let mirror = Similarity::MIRROR;
     let mirrored = World::new(Arc::new(mirror.scene(&world.scene)));
