@@ -31,7 +31,11 @@ impl Effects {
         match event.kind {
             GameEventKind::Kicked { element, .. }
             | GameEventKind::Felled { element, .. }
-            | GameEventKind::Passed { element } => self.flash(element, now),
+            | GameEventKind::Passed { element }
+            | GameEventKind::Struck { element, .. }
+            | GameEventKind::Spun { element }
+            | GameEventKind::Held { element }
+            | GameEventKind::Ejected { element } => self.flash(element, now),
             GameEventKind::Points { points, place: Some((x, y)), .. } => {
                 if self.popups.len() == MOST_POPUPS {
                     self.popups.remove(0);
@@ -44,6 +48,7 @@ impl Effects {
                 }
             }
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
+            GameEventKind::Added { .. } => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
             GameEventKind::Rescued => self.say("NEW BALL".to_owned(), now),
             _ => {}

@@ -150,8 +150,22 @@ fn trace_line(table: &Table, event: &Event) -> Value {
         "vel": [event.velocity.x, event.velocity.y],
     });
     match event.kind {
-        EventKind::Touched { element, .. } | EventKind::Kicked { element, .. } | EventKind::Felled { element, .. } => {
+        EventKind::Touched { element, .. }
+        | EventKind::Kicked { element, .. }
+        | EventKind::Felled { element, .. }
+        | EventKind::Struck { element, .. } => line["element"] = json!(element_name(element)),
+        EventKind::Spun { element } => {
             line["element"] = json!(element_name(element));
+            line["event"] = json!("spun");
+            line["ball"] = Value::Null;
+        }
+        EventKind::Held { element } => {
+            line["element"] = json!(element_name(element));
+            line["event"] = json!("held");
+        }
+        EventKind::Ejected { element } => {
+            line["element"] = json!(element_name(element));
+            line["event"] = json!("ejected");
         }
         EventKind::Passed { element } => {
             line["element"] = json!(element_name(element));

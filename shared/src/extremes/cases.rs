@@ -20,6 +20,8 @@ pub(super) enum Act {
     Pull(Option<f64>),
     /// A fallen target rises.
     Raise(u16),
+    /// A saucer throws its ball out.
+    Kick(u16),
     /// A ball of the first kind.
     Launch { position: DVec2, velocity: DVec2 },
 }
@@ -41,7 +43,7 @@ impl Case {
             Act::Launch { position, velocity } => {
                 Act::Launch { position: map.point(position), velocity: map.vector(velocity) }
             }
-            Act::Pull(_) | Act::Raise(_) => act,
+            Act::Pull(_) | Act::Raise(_) | Act::Kick(_) => act,
         };
         let script = self.script.iter().map(|&(tick, what)| (tick, act(what))).collect();
         Self { scene: map.scene(&self.scene), script, ..*self }
@@ -75,6 +77,7 @@ impl Run<'_> {
                 Act::Press { right, pressed } => self.world.press(right, pressed),
                 Act::Pull(hand) => self.world.pull(hand),
                 Act::Raise(target) => self.world.raise(target),
+                Act::Kick(saucer) => self.world.kick(saucer),
                 Act::Launch { position, velocity } => {
                     self.world.launch(0, position, velocity);
                 }
@@ -149,7 +152,7 @@ pub(super) fn furniture(restitution: f64) -> String {
 
 /// The cases that every symmetry is tried with.
 pub(super) fn all(motion: Motion) -> Vec<Case> {
-    vec![one_ball(motion), two_balls(motion), parts(motion), flippers(motion), plunge(motion)]
+    vec![one_ball(motion), two_balls(motion), parts(motion), mechanisms(motion), flippers(motion), plunge(motion)]
 }
 
 /// One ball among walls and posts, until it nearly rests.
@@ -197,6 +200,34 @@ fn parts(motion: Motion) -> Case {
         .collect();
     script.push((2000, Act::Raise(0)));
     Case { name: "parts", scene: scene(text, motion), script, ticks: 3000 }
+}
+
+/// Spinners, gates, saucers and standing targets, and a second ball that passes over a saucer that holds one.
+fn mechanisms(motion: Motion) -> Case {
+    let text = r#"(format: 1, physics: 3, name: "mechanisms", size: (1.0, 1.0), gravity: (0.0, -0.793), rest_speed: 0.02,
+        ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)),
+        materials: { "wood": (restitution: 0.3, friction: 0.3), "rubber": (restitution: 0.8, falloff: 0.3, friction: 0.6) },
+        elements: [
+            Wall(name: "frame", material: "wood", points: [(0.0, 0.0), (0.0, 1.0), (1.0, 1.0), (1.0, 0.0)]),
+            Spinner(name: "s", from: (0.15, 0.71), to: (0.41, 0.77), lever: 0.02, inertia: 2e-6, friction: 30.0,
+                restitution: 0.3, lift: 1e-5),
+            Gate(name: "g", from: (0.2, 0.52), to: (0.37, 0.48), lever: 0.03, inertia: 3e-6, restitution: 0.4, lift: 2e-4,
+                one_way: true),
+            Gate(name: "h", from: (0.6, 0.71), to: (0.87, 0.65), lever: 0.02, inertia: 2e-6, restitution: 0.3, lift: 4e-4,
+                one_way: false),
+            Saucer(name: "hole", center: (0.32, 0.3), radius: 0.035, capture: 1.9, kick: (0.31, 1.7), hold: 0.37),
+            Saucer(name: "lock", center: (0.72, 0.4), radius: 0.035, capture: 1.9, kick: (-0.31, 1.7)),
+            Target(name: "t", material: "rubber", from: (0.45, 0.83), to: (0.55, 0.84), threshold: 0.11),
+            Drain(name: "drain", from: (0.0, 0.01), to: (1.0, 0.01)),
+        ],
+        rules: (balls: 3, max_multiplier: 6, on: [(event: Hold("lock"), run: [Serve])]))"#;
+    let launches = [(0, (0.29, 0.66), (0.07, 1.1)), (100, (0.71, 0.85), (0.0, -0.4)), (900, (0.73, 0.6), (0.0, 1.3))];
+    let mut script: Vec<_> = launches
+        .into_iter()
+        .map(|(tick, place, speed)| (tick, Act::Launch { position: DVec2::from(place), velocity: DVec2::from(speed) }))
+        .collect();
+    script.push((2500, Act::Kick(1)));
+    Case { name: "mechanisms", scene: scene(text, motion), script, ticks: 4000 }
 }
 
 /// Classic: a ball towards the flippers, which are pressed and released.

@@ -10,6 +10,7 @@ use super::Check;
 use super::cases::{self, Case, Run, balls};
 use super::transform::Similarity;
 use crate::math::Rng;
+use crate::physics::hinge::HingeState;
 use crate::physics::motion::Motion;
 use crate::physics::needs::Needs;
 use crate::physics::scene::{Collider, Material, Presence, Role, Scene};
@@ -74,7 +75,17 @@ fn is_same(world: &World, other: &World, map: &Similarity) -> bool {
         && world.events().iter().zip(other.events()).all(|(event, other)| {
             event.at == other.at && event.ball == other.ball && map.point(event.position) == other.position
         });
-    same_balls && same_plungers && same_events && state.flippers == others.flippers && state.targets == others.targets
+    // A mirror turns round the side to which angles grow, unless the side matters: then the ends change places.
+    let same_hinges = state.hinges.iter().zip(&others.hinges).all(|(hinge, other)| {
+        let turned = |hinge: &HingeState| (hinge.start, hinge.angle.abs(), hinge.speed.abs());
+        turned(hinge) == turned(other)
+    });
+    same_balls
+        && same_hinges
+        && same_plungers
+        && same_events
+        && state.flippers == others.flippers
+        && state.targets == others.targets
 }
 
 fn mirrored(motion: Motion) -> Result<f64, String> {

@@ -74,6 +74,9 @@ fn old_world(motion: Motion) -> Result<f64, String> {
         for ball in &mut state.balls {
             ball.flight.start.tick += age;
         }
+        for hinge in &mut state.hinges {
+            hinge.start.tick += age;
+        }
         let mut old = World::new(Arc::clone(young.world.scene()));
         old.restore(state).map_err(|error| format!("{}: {error}", case.name))?;
         let differs = (0..1000).any(|_| {

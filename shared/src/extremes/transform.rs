@@ -9,6 +9,7 @@ use glam::DVec2;
 use crate::math::{direction, tangent};
 use crate::physics::ball::{Flight, Instant};
 use crate::physics::flipper::FlipperSpec;
+use crate::physics::hinge::HingeSpec;
 use crate::physics::plunger::PlungerSpec;
 use crate::physics::scene::{Material, Role, Scene};
 use crate::physics::shapes::{Arc, Bounds, Segment, Shape};
@@ -117,6 +118,13 @@ impl Similarity {
         for plunger in &mut other.plungers {
             *plunger = self.plunger(plunger);
         }
+        for hinge in &mut other.hinges {
+            *hinge = self.hinge(hinge);
+        }
+        for saucer in &mut other.saucers {
+            (saucer.center, saucer.kick) = (self.point(saucer.center), self.vector(saucer.kick));
+            saucer.capture = self.length(saucer.capture);
+        }
         other.built()
     }
 
@@ -148,7 +156,20 @@ impl Similarity {
                 Role::Kicker { speed: self.length(speed), threshold: self.length(threshold) }
             }
             Role::Target { index, threshold } => Role::Target { index, threshold: self.length(threshold) },
+            Role::Standing { threshold } => Role::Standing { threshold: self.length(threshold) },
+            Role::Hinge { .. } | Role::Saucer { .. } => role,
             Role::Solid | Role::Sensor | Role::Hole { .. } | Role::Drain => role,
+        }
+    }
+
+    fn hinge(&self, hinge: &HingeSpec) -> HingeSpec {
+        let square = self.scale * self.scale;
+        HingeSpec {
+            middle: self.point(hinge.middle),
+            lever: self.length(hinge.lever),
+            inertia: hinge.inertia * square,
+            lift: hinge.lift * square,
+            ..*hinge
         }
     }
 

@@ -28,7 +28,7 @@ const PULL_TIME: (f64, f64) = (0.8, 1.2);
 /// Seconds after a launch before it looks for a ball on the plunger again.
 const PLUNGER_QUIET: f64 = 1.0;
 
-/// What the bot saw at some tick: the lowest ball.
+/// What the bot saw at some tick: the lowest ball in no saucer.
 #[derive(Debug, Clone, Copy)]
 struct Sight {
     position: DVec2,
@@ -103,7 +103,8 @@ impl Bot {
     fn look(&mut self, game: &Game) -> Option<Sight> {
         let dt = game.table().scene.tick_seconds;
         let now = Instant::start_of(game.tick());
-        let balls = game.world().state().balls.iter().map(|ball| ball.at(now, dt));
+        let balls =
+            game.world().state().balls.iter().filter(|ball| ball.saucer().is_none()).map(|ball| ball.at(now, dt));
         let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
         let ticks = ((LATENCY / dt) as usize).max(1);
         self.sights.resize(ticks, None);

@@ -37,8 +37,30 @@ pub enum GameEventKind {
         /// Of approach.
         speed: f32,
     },
-    /// A ball passed a rollover.
+    /// A ball passed a rollover, or went through a plate.
     Passed {
+        /// The element.
+        element: u16,
+    },
+    /// A standing target was hit.
+    Struck {
+        /// The element.
+        element: u16,
+        /// Of approach.
+        speed: f32,
+    },
+    /// A spinner turned half round.
+    Spun {
+        /// The element.
+        element: u16,
+    },
+    /// A saucer caught a ball.
+    Held {
+        /// The element.
+        element: u16,
+    },
+    /// A saucer threw a ball out.
+    Ejected {
         /// The element.
         element: u16,
     },
@@ -80,7 +102,12 @@ pub enum GameEventKind {
         /// Which, from 1.
         ball: u32,
     },
-    /// A ball was lost, and with it the turn.
+    /// A rule put another ball into play.
+    Added {
+        /// To whom.
+        seat: u8,
+    },
+    /// The last ball was lost, and with it the turn.
     Lost {
         /// Whose.
         seat: u8,
@@ -99,6 +126,10 @@ impl GameEventKind {
             EventKind::Kicked { element, speed } => Some(Self::Kicked { element, speed: speed as f32 }),
             EventKind::Felled { element, speed } => Some(Self::Felled { element, speed: speed as f32 }),
             EventKind::Passed { element } => Some(Self::Passed { element }),
+            EventKind::Struck { element, speed } => Some(Self::Struck { element, speed: speed as f32 }),
+            EventKind::Spun { element } => Some(Self::Spun { element }),
+            EventKind::Held { element } => Some(Self::Held { element }),
+            EventKind::Ejected { element } => Some(Self::Ejected { element }),
             EventKind::Met { .. } | EventKind::Stalled { .. } | EventKind::Drained | EventKind::Escaped => None,
         }
     }

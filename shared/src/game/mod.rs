@@ -4,6 +4,9 @@
 mod bot;
 mod events;
 mod input;
+mod multiball;
+#[cfg(test)]
+mod multiball_tests;
 pub mod replay;
 mod state;
 #[cfg(test)]
@@ -83,11 +86,15 @@ impl Game {
         }
         // 2. A ball that is due.
         self.serve_due();
+        self.serve_extra();
         // 3. The world moves.
         self.world.step();
         // 4. The rules make points of what happened.
         self.apply_rules();
-        // 5. A lost ball ends the turn; a stuck one is served again.
+        // 5. The last lost ball ends the turn; a stuck one is served again.
+        if self.table.scene.needs.saucers {
+            self.free_held_balls();
+        }
         self.end_turn_when_lost();
         self.free_stuck_ball();
     }
@@ -251,7 +258,7 @@ impl Game {
         self.world.pull(None);
         self.world.clear_balls();
         let serve_in = self.ticks(pause);
-        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0, quiet: 0 };
+        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0, quiet: 0, extra: 0 };
     }
 
     fn next_turn(&mut self) {
@@ -299,13 +306,25 @@ impl Game {
             }
             let is_play = matches!(
                 event.kind,
-                EventKind::Kicked { .. } | EventKind::Felled { .. } | EventKind::Passed { .. } | EventKind::Drained
+                EventKind::Kicked { .. }
+                    | EventKind::Felled { .. }
+                    | EventKind::Struck { .. }
+                    | EventKind::Passed { .. }
+                    | EventKind::Spun { .. }
+                    | EventKind::Held { .. }
+                    | EventKind::Ejected { .. }
+                    | EventKind::Drained
             );
             if let (Phase::Play { untouched, quiet, .. }, true) = (&mut self.play.phase, is_play) {
                 (*untouched, *quiet) = (false, 0);
             }
             if matches!(event.kind, EventKind::Escaped) {
-                self.serve_again();
+                // Others that are in play go on.
+                if self.world.state().balls.is_empty() {
+                    self.serve_again();
+                } else {
+                    self.play.phase.add_ball();
+                }
             }
             self.occasion(Occasion::Physics(event.kind), Some(event.position));
         }
@@ -315,7 +334,7 @@ impl Game {
     fn occasion(&mut self, occasion: Occasion, position: Option<DVec2>) {
         let Phase::Play { seat, .. } = self.play.phase else { return };
         let tick = self.now;
-        let events = &mut self.events;
+        let (events, phase) = (&mut self.events, &mut self.play.phase);
         let score = &mut self.play.seats[usize::from(seat)].score;
         rules::run(&self.table, occasion, score, &mut self.play.lights, &mut self.world, |effect| {
             let kind = match effect {
@@ -324,6 +343,7 @@ impl Game {
                     GameEventKind::Points { seat, points, place }
                 }
                 Effect::Message(place) => GameEventKind::Message { place },
+                Effect::Serve => return phase.add_ball(),
             };
             events.push(GameEvent { tick, kind });
         });
@@ -331,7 +351,7 @@ impl Game {
 
     /// 5. When no ball is left, the turn is over.
     fn end_turn_when_lost(&mut self) {
-        if let Phase::Play { seat, serve_in: 0, .. } = self.play.phase
+        if let Phase::Play { seat, serve_in: 0, extra: 0, .. } = self.play.phase
             && self.world.state().balls.is_empty()
         {
             self.emit(GameEventKind::Lost { seat });
@@ -348,8 +368,10 @@ impl Game {
         let state = self.world.state();
         // In a cradle a ball lies still, too.
         let held = state.flippers.iter().any(|flipper| flipper.pressed);
-        let (mut is_ready, mut is_still) = (state.balls.is_empty(), !held);
-        for ball in &state.balls {
+        // Balls in saucers come out by themselves, or when no other is left.
+        let loose = || state.balls.iter().filter(|ball| ball.saucer().is_none());
+        let (mut is_ready, mut is_still) = (loose().next().is_none(), !held);
+        for ball in loose() {
             let (position, velocity) = ball.at(now, scene.tick_seconds);
             is_ready |= matches!(ball.support, Support::Plunger(_))
                 || scene.plungers.iter().any(|plunger| plunger.distance(0.0, position).abs() < 2.0 * radius);
@@ -368,7 +390,7 @@ impl Game {
     fn serve_again(&mut self) {
         let Phase::Play { serve_in: 0, still, quiet, .. } = &mut self.play.phase else { return };
         (*still, *quiet) = (0, 0);
-        self.world.clear_balls();
+        self.world.clear_loose_balls();
         self.world.serve(self.table.ball_start);
         self.emit(GameEventKind::Rescued);
     }

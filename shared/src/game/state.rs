@@ -9,6 +9,9 @@ use crate::rules::Score;
 /// The most balls that a table's rules may give a player.
 pub(crate) const MOST_BALLS_A_GAME: u32 = 100;
 
+/// The most balls that wait to be put into play: rules that ask for more get no more.
+pub(super) const MOST_EXTRA: u32 = 16;
+
 /// A place at the table.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Seat {
@@ -40,6 +43,8 @@ pub enum Phase {
         still: u32,
         /// Ticks since anything that counts has happened to it, or a control was worked.
         quiet: u32,
+        /// Balls that rules want to have put into play besides.
+        extra: u32,
     },
     /// A game has ended.
     Over,
@@ -72,6 +77,11 @@ impl Play {
                 what: "balls played",
                 found: ball as usize,
                 expected: MOST_BALLS_A_GAME as usize,
+            }),
+            Phase::Play { extra, .. } if extra > MOST_EXTRA => Err(StateError::Count {
+                what: "balls to be served",
+                found: extra as usize,
+                expected: MOST_EXTRA as usize,
             }),
             _ => Ok(()),
         }

@@ -358,8 +358,15 @@ fn a_state_with_a_turn_of_nobody_is_refused() {
     let mut game = started(1);
     let before = game.digest();
     let mut state = game.state();
-    state.play =
-        super::sample_play(Phase::Play { seat: 9, ball: 1, serve_in: 0, untouched: false, still: 0, quiet: 0 });
+    state.play = super::sample_play(Phase::Play {
+        seat: 9,
+        ball: 1,
+        serve_in: 0,
+        untouched: false,
+        still: 0,
+        quiet: 0,
+        extra: 0,
+    });
     assert!(game.restore(state).is_err());
     assert_eq!(game.digest(), before);
 }

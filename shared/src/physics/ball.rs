@@ -91,6 +91,10 @@ pub enum Support {
     Flipper(u16),
     /// A moving plunger, likewise.
     Plunger(u16),
+    /// It lies in a saucer, by its place in the scene, since the start of its flight.
+    Held(u16),
+    /// The same, and is thrown out with the next tick.
+    Released(u16),
 }
 
 /// How a ball slides along what it lies on: its rim slips, and friction works on it.
@@ -128,6 +132,14 @@ impl Ball {
     pub(super) fn support_collider<'a>(&self, scene: &'a Scene) -> Option<&'a Collider> {
         match self.support {
             Support::Line(i) | Support::Arc(i) => scene.colliders.get(usize::from(i)),
+            _ => None,
+        }
+    }
+
+    /// The saucer that it lies in, by its place in the scene.
+    pub fn saucer(&self) -> Option<u16> {
+        match self.support {
+            Support::Held(index) | Support::Released(index) => Some(index),
             _ => None,
         }
     }

@@ -77,6 +77,18 @@ pub const MOST_IMPACTS_PER_SECOND: f64 = 2e5;
 /// Angular speed, rad/s, below which a flipper that reaches an end stop stays there.
 pub const FLIPPER_STOP_SPEED: f64 = 1.0;
 
+/// Fastest that a hinged plate turns, rad/s: 1600 turns a second, 80 times what a machine's spinner does. Every half turn is
+/// an event. Larger: a tick may have so many of them that it never ends.
+pub const MOST_HINGE_SPEED: f64 = 1e4;
+
+/// Share of what gravity does for a ball at a plate that lifting the plate may take at the most: less than all of it, so that no
+/// rounding lets a ball lie on the plate. Smaller: plates that would open are refused.
+pub const MOST_LIFT: f64 = 0.9;
+
+/// Share of gravity across a plate's line below which a ball is not pressed against it: rounding of the line's direction.
+/// Smaller: a plate along the pull of gravity is refused for it.
+pub const PRESSED: f64 = 1e-9;
+
 /// Share of its speed or pull below which a sliding ball's approach to another surface is rounding: that of projecting
 /// a vector twice. Smaller: a ball in a corner is taken to run into the surface that it slides along.
 pub const SLIDE_ROUNDING: f64 = 1e-12;

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::ball::{Flight, Instant, Support};
 use super::constants::{MOST_SPEED, PLASTIC_SHARE};
 use super::contact::{Moment, Response, Settled, Surface, respond, settle};
+use super::hinge::At;
 use super::motion::{Next, Span};
 use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact, lever};
 use super::scene::{Collider, Presence, Role};
@@ -28,6 +29,8 @@ enum Happening {
     FlipperStop(usize, bool),
     /// A plunger that was let go reaches home.
     PlungerHome(usize),
+    /// A spinner has turned half round.
+    HalfTurn(usize),
 }
 
 impl World {
@@ -44,6 +47,7 @@ impl World {
                 Happening::Turned(ball) => self.next_piece_of_flipper(ball, offset),
                 Happening::FlipperStop(flipper, raised) => self.stop_flipper(flipper, raised, offset),
                 Happening::PlungerHome(plunger) => self.stop_plunger(plunger, offset),
+                Happening::HalfTurn(hinge) => self.turn_half(hinge, offset),
             }
         }
     }
@@ -91,6 +95,11 @@ impl World {
                 earliest = Some((offset, Happening::PlungerHome(index)));
             }
         }
+        if self.scene.needs.hinges
+            && let Some((offset, index)) = self.next_half_turn(clock, limit)
+        {
+            earliest = Some((offset, Happening::HalfTurn(index)));
+        }
         earliest
     }
 
@@ -98,7 +107,7 @@ impl World {
     fn next_mover(&self, ball: usize, clock: f64, limit: f64) -> Option<(f64, Happening)> {
         let dt = self.scene.tick_seconds;
         let subject = &self.state.balls[ball];
-        if subject.support == Support::Stalled {
+        if subject.support == Support::Stalled || subject.saucer().is_some() {
             return None;
         }
         let elapsed = Instant::start_of(self.state.tick).since(subject.flight.start, dt);
@@ -190,7 +199,11 @@ impl World {
                         self.start_flight(ball, offset, position, velocity, None, None);
                     }
                     Role::Drain => self.take_out(ball, offset, position, EventKind::Drained),
-                    Role::Solid | Role::Kicker { .. } | Role::Target { .. } => {
+                    Role::Hinge { index: hinge } => {
+                        self.meet_hinge(ball, hinge, At { collider: index, offset, time: t, position });
+                    }
+                    Role::Saucer { index: saucer } => self.meet_saucer(ball, index, saucer, offset, t),
+                    Role::Solid | Role::Kicker { .. } | Role::Target { .. } | Role::Standing { .. } => {
                         self.bounce(ball, index, offset, position, velocity);
                     }
                 }
@@ -216,6 +229,7 @@ impl World {
                 kind = EventKind::Kicked { element, speed };
             }
             Role::Target { threshold, .. } if speed >= threshold => kind = EventKind::Felled { element, speed },
+            Role::Standing { threshold } if speed >= threshold => kind = EventKind::Struck { element, speed },
             _ => {}
         }
         self.refresh_spin(ball, offset, position, velocity);

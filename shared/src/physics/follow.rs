@@ -28,7 +28,7 @@ impl World {
     /// Begins a new piece of flight for one ball that follows a surface.
     pub(super) fn follow_surface(&mut self, ball: usize, offset: f64) {
         match self.state.balls[ball].support {
-            Support::None | Support::Line(_) | Support::Wedge(..) => {}
+            Support::None | Support::Line(_) | Support::Wedge(..) | Support::Held(_) | Support::Released(_) => {}
             Support::Stalled => {
                 let (position, velocity) = self.ball_at(ball, offset);
                 self.start_flight(ball, offset, position, velocity, None, None);

@@ -242,7 +242,8 @@ impl World {
     fn meeting_of(&self, one: usize, other: usize) -> Option<Instant> {
         let (scene, dt) = (&self.scene, self.scene.tick_seconds);
         let balls = [&self.state.balls[one], &self.state.balls[other]];
-        if balls[0].floor != balls[1].floor {
+        // A ball in a saucer lies below the others.
+        if balls[0].floor != balls[1].floor || balls.iter().any(|ball| ball.saucer().is_some()) {
             return None;
         }
         let later = |a: Instant, b: Instant| if (a.tick, a.offset) > (b.tick, b.offset) { a } else { b };

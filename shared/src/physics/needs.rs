@@ -27,8 +27,12 @@ pub struct Needs {
     pub targets: bool,
     /// There is more than the playfield.
     pub floors: bool,
-    /// Something notices a ball passing: rollovers, holes and drains.
+    /// Something notices a ball's centre passing: rollovers, plates, saucers, holes and drains.
     pub sensors: bool,
+    /// There are plates on hinges: spinners and gates.
+    pub hinges: bool,
+    /// There are saucers.
+    pub saucers: bool,
     /// There are so many shapes that a grid finds the ones near a flight faster than a look at all of them.
     pub broad_phase: bool,
 }
@@ -38,8 +42,11 @@ pub struct Needs {
 const BROAD_PHASE_FROM: usize = 24;
 
 impl Needs {
+    /// How many there are.
+    pub const COUNT: usize = 14;
+
     /// The names of all needs, in the order of [`Self::flags`].
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; Self::COUNT] = [
         "gravity",
         "friction",
         "spin",
@@ -52,10 +59,12 @@ impl Needs {
         "floors",
         "sensors",
         "broad phase",
+        "hinges",
+        "saucers",
     ];
 
     /// Everything.
-    pub const ALL: Self = Self::from_flags([true; 12]);
+    pub const ALL: Self = Self::from_flags([true; Self::COUNT]);
 
     /// What `scene` requires.
     pub(super) fn of(scene: &Scene) -> Self {
@@ -73,15 +82,15 @@ impl Needs {
             friction,
             spin: friction,
             contact: gravity || movers || colliders.iter().any(hollow),
-            ball_ball: scene.start.len() > 1,
+            ball_ball: scene.start.len() > 1 || scene.multiball,
             kinds: scene.kinds.len() > 1,
             flippers: !scene.flippers.is_empty(),
             plungers: !scene.plungers.is_empty(),
             targets: colliders.iter().any(|collider| matches!(collider.presence, Presence::TargetUp(_))),
             floors: colliders.iter().any(|collider| collider.floor > 0 || matches!(collider.role, Role::Hole { .. })),
-            sensors: colliders
-                .iter()
-                .any(|collider| matches!(collider.role, Role::Sensor | Role::Hole { .. } | Role::Drain)),
+            sensors: colliders.iter().any(|collider| collider.role.is_passed()),
+            hinges: !scene.hinges.is_empty(),
+            saucers: !scene.saucers.is_empty(),
             broad_phase: colliders.len() >= BROAD_PHASE_FROM,
         }
     }
@@ -92,7 +101,7 @@ impl Needs {
     }
 
     /// Each need, in the order of [`Self::NAMES`].
-    pub const fn flags(self) -> [bool; 12] {
+    pub const fn flags(self) -> [bool; Self::COUNT] {
         [
             self.gravity,
             self.friction,
@@ -106,11 +115,13 @@ impl Needs {
             self.floors,
             self.sensors,
             self.broad_phase,
+            self.hinges,
+            self.saucers,
         ]
     }
 
     /// The reverse of [`Self::flags`].
-    pub const fn from_flags(flags: [bool; 12]) -> Self {
+    pub const fn from_flags(flags: [bool; Self::COUNT]) -> Self {
         let [
             gravity,
             friction,
@@ -124,6 +135,8 @@ impl Needs {
             floors,
             sensors,
             broad_phase,
+            hinges,
+            saucers,
         ] = flags;
         Self {
             gravity,
@@ -138,6 +151,8 @@ impl Needs {
             floors,
             sensors,
             broad_phase,
+            hinges,
+            saucers,
         }
     }
 
@@ -148,7 +163,7 @@ impl Needs {
 
     /// The reverse of [`Self::bits`]; bits beyond the last need are none.
     pub fn from_bits(bits: u16) -> Self {
-        let mut flags = [false; 12];
+        let mut flags = [false; Self::COUNT];
         for (place, flag) in flags.iter_mut().enumerate() {
             *flag = bits >> place & 1 == 1;
         }
@@ -167,8 +182,8 @@ mod tests {
 
     #[test]
     fn bits_and_flags_are_the_same_needs() {
-        for place in 0..12 {
-            let mut flags = [false; 12];
+        for place in 0..Needs::COUNT {
+            let mut flags = [false; Needs::COUNT];
             flags[place] = true;
             let needs = Needs::from_flags(flags);
             assert_eq!(needs.bits(), 1 << place);

@@ -5,9 +5,11 @@ use glam::DVec2;
 use super::broad_phase::Grid;
 use super::constants::ROLLING_SHARE;
 use super::flipper::FlipperSpec;
+use super::hinge::HingeSpec;
 use super::motion::Motion;
 use super::needs::Needs;
 use super::plunger::PlungerSpec;
+use super::saucer::SaucerSpec;
 use super::shapes::{Bounds, Shape};
 
 /// A surface.
@@ -59,8 +61,23 @@ pub enum Role {
         /// Of approach, m/s.
         threshold: f64,
     },
+    /// Stops it and notices a hit at `threshold` m/s or faster.
+    Standing {
+        /// Of approach, m/s.
+        threshold: f64,
+    },
     /// Notices its centre passing.
     Sensor,
+    /// Where its centre passes, or is thrown back by, a plate.
+    Hinge {
+        /// Place among the scene's hinges.
+        index: u16,
+    },
+    /// Holds it, once its centre has come in.
+    Saucer {
+        /// Place among the scene's saucers.
+        index: u16,
+    },
     /// A ball whose centre passes it drops, or climbs, to another floor.
     Hole {
         /// The floor that it leads to.
@@ -73,7 +90,10 @@ pub enum Role {
 impl Role {
     /// Whether a ball passes it, rather than being stopped by it.
     pub fn is_passed(self) -> bool {
-        matches!(self, Self::Sensor | Self::Hole { .. } | Self::Drain)
+        match self {
+            Self::Sensor | Self::Hinge { .. } | Self::Saucer { .. } | Self::Hole { .. } | Self::Drain => true,
+            Self::Solid | Self::Kicker { .. } | Self::Target { .. } | Self::Standing { .. } => false,
+        }
     }
 }
 
@@ -164,6 +184,12 @@ pub struct Scene {
     pub plungers: Vec<PlungerSpec>,
     /// How many targets can fall.
     pub targets: u16,
+    /// Plates of spinners and gates.
+    pub hinges: Vec<HingeSpec>,
+    /// Saucers.
+    pub saucers: Vec<SaucerSpec>,
+    /// Whether there may be more balls in play than those of the start and the one that is served.
+    pub multiball: bool,
     /// What this scene requires: of [`Self::built`].
     pub needs: Needs,
     /// The broad phase, where it is needed: of [`Self::built`].

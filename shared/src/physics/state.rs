@@ -6,8 +6,10 @@ use thiserror::Error;
 use super::ball::{Ball, Instant, Support};
 use super::constants::MOST_SPEED;
 use super::flipper::FlipperState;
+use super::hinge::HingeState;
 use super::needs::Needs;
 use super::plunger::PlungerState;
+use super::saucer::check_held;
 use super::scene::{Collider, Presence, Scene};
 use super::shapes::Shape;
 use crate::physics::flipper::FlipperRest;
@@ -53,6 +55,8 @@ pub struct WorldState {
     pub plungers: Vec<PlungerState>,
     /// In the scene's order.
     pub targets: Vec<TargetState>,
+    /// In the scene's order.
+    pub hinges: Vec<HingeState>,
 }
 
 /// Why a state was refused.
@@ -61,7 +65,7 @@ pub enum StateError {
     /// A list has not the table's length.
     #[error("the state has {found} {what}, the table has {expected}")]
     Count {
-        /// Flippers, plungers or targets.
+        /// Flippers, plungers, targets or hinges.
         what: &'static str,
         /// In the state.
         found: usize,
@@ -69,7 +73,7 @@ pub enum StateError {
         expected: usize,
     },
     /// It was written for another scene.
-    #[error("the state holds what another scene needs ({found:012b}), this one needs {expected:012b}")]
+    #[error("the state holds what another scene needs ({found:014b}), this one needs {expected:014b}")]
     Needs {
         /// Of the state, one bit a need.
         found: u16,
@@ -79,7 +83,7 @@ pub enum StateError {
     /// NaN, an infinity, or a moment that is not within a tick.
     #[error("{what} {index} has a number that is not finite or out of range")]
     Number {
-        /// Ball, flipper or plunger.
+        /// Ball, flipper, plunger or hinge.
         what: &'static str,
         /// Its place in the state.
         index: usize,
@@ -103,6 +107,7 @@ impl WorldState {
             flippers: vec![FlipperState::default(); scene.flippers.len()],
             plungers: vec![PlungerState::default(); scene.plungers.len()],
             targets: vec![TargetState::Up; usize::from(scene.targets)],
+            hinges: vec![HingeState::default(); scene.hinges.len()],
         };
         state.reserve_balls();
         state
@@ -140,6 +145,7 @@ impl WorldState {
             ("flippers", self.flippers.len(), scene.flippers.len()),
             ("plungers", self.plungers.len(), scene.plungers.len()),
             ("targets", self.targets.len(), usize::from(scene.targets)),
+            ("hinges", self.hinges.len(), scene.hinges.len()),
         ];
         for (what, found, expected) in counts {
             if found != expected {
@@ -149,6 +155,7 @@ impl WorldState {
         for (index, ball) in self.balls.iter().enumerate() {
             self.check_ball(scene, index, ball)?;
         }
+        check_held(&scene.saucers, &self.balls)?;
         // A moment whose distance from another has no digits left for a part of a tick is no moment.
         if self.tick > MOST_TICKS {
             return Err(StateError::Number { what: "tick", index: 0 });
@@ -166,6 +173,11 @@ impl WorldState {
             let hand = plunger.hand.unwrap_or(0.0);
             if !(in_stroke && is_slow(plunger.speed) && (0.0..=1.0).contains(&hand)) {
                 return Err(StateError::Number { what: "plunger", index });
+            }
+        }
+        for (index, (hinge, spec)) in self.hinges.iter().zip(&scene.hinges).enumerate() {
+            if !hinge.is_possible(spec, self.tick, scene.tick_seconds) {
+                return Err(StateError::Number { what: "hinge", index });
             }
         }
         Ok(())
@@ -202,6 +214,7 @@ impl WorldState {
             Support::Wedge(i, j) => collider(i).is_some() && collider(j).is_some(),
             Support::Flipper(i) => usize::from(i) < scene.flippers.len(),
             Support::Plunger(i) => usize::from(i) < scene.plungers.len(),
+            Support::Held(i) | Support::Released(i) => usize::from(i) < scene.saucers.len(),
         };
         if known { Ok(()) } else { Err(StateError::Support { index }) }
     }

@@ -3,7 +3,7 @@
 //!
 //! | always | if needed |
 //! |---|---|
-//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets |
+//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges |
 
 use core::fmt;
 
@@ -20,7 +20,8 @@ use crate::math::bounded;
 impl Serialize for WorldState {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let needs = self.needs;
-        let parts = [needs.flippers, needs.plungers, needs.targets].into_iter().filter(|&needed| needed).count();
+        let parts =
+            [needs.flippers, needs.plungers, needs.targets, needs.hinges].into_iter().filter(|&needed| needed).count();
         let mut tuple = serializer.serialize_tuple(4 + parts)?;
         tuple.serialize_element(&needs.bits())?;
         tuple.serialize_element(&self.tick)?;
@@ -34,6 +35,9 @@ impl Serialize for WorldState {
         }
         if needs.targets {
             tuple.serialize_element(&self.targets)?;
+        }
+        if needs.hinges {
+            tuple.serialize_element(&self.hinges)?;
         }
         tuple.end()
     }
@@ -64,12 +68,13 @@ impl<'de> Deserialize<'de> for WorldState {
                     flippers: parts(&mut seq, needs.flippers)?,
                     plungers: parts(&mut seq, needs.plungers)?,
                     targets: parts(&mut seq, needs.targets)?,
+                    hinges: parts(&mut seq, needs.hinges)?,
                 })
             }
         }
 
         // How many elements follow is known once the first of them is read.
-        deserializer.deserialize_tuple(7, State)
+        deserializer.deserialize_tuple(8, State)
     }
 }
 

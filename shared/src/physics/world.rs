@@ -25,12 +25,15 @@ const LEAST_EVENTS: usize = 256;
 /// See [`LEAST_EVENTS`].
 const EVENTS_PER_BALL: usize = 16;
 
-/// Something that happened to a ball.
+/// The ball of an event that happens to no ball.
+pub const NO_BALL: u32 = u32::MAX;
+
+/// Something that happened, to a ball unless it says otherwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Event {
     /// When.
     pub at: Instant,
-    /// Which ball.
+    /// Which ball; [`NO_BALL`] where something happens to none.
     pub ball: u32,
     /// Its centre then, m.
     pub position: DVec2,
@@ -64,6 +67,28 @@ pub enum EventKind {
         /// Of approach.
         speed: f64,
     },
+    /// It hit that standing target.
+    Struck {
+        /// The table's element.
+        element: u16,
+        /// Of approach.
+        speed: f64,
+    },
+    /// That spinner turned half round: of no ball.
+    Spun {
+        /// The table's element.
+        element: u16,
+    },
+    /// That saucer caught it.
+    Held {
+        /// The table's element.
+        element: u16,
+    },
+    /// That saucer threw it out.
+    Ejected {
+        /// The table's element.
+        element: u16,
+    },
     /// It met another ball.
     Met {
         /// The other one's id.
@@ -71,7 +96,7 @@ pub enum EventKind {
         /// Of approach, m/s.
         speed: f64,
     },
-    /// It passed that sensor.
+    /// It passed that sensor, or went through that plate.
     Passed {
         /// The table's element.
         element: u16,
@@ -107,9 +132,9 @@ pub struct World {
     pub(super) meetings: Meetings,
     scratch: Scratch,
     /// Before this tick nothing happens, unless somebody does something. Can be recomputed.
-    busy_from: u64,
+    pub(super) busy_from: u64,
     /// The same, or 0 while there is something to tell of the last tick: before it a step only counts.
-    quiet_until: u64,
+    pub(super) quiet_until: u64,
 }
 
 impl World {
@@ -169,6 +194,9 @@ impl World {
         }
         // 2. Balls on a curved or moving surface begin a new piece of flight along it.
         self.follow_surfaces();
+        if needs.saucers {
+            self.throw_out();
+        }
         // 3. Everything that happens, in order of time.
         if needs.ball_ball {
             self.forget_meetings_of_last_tick();
@@ -324,6 +352,10 @@ impl World {
         let now = Instant::start_of(state.tick);
         let mut busy = u64::MAX;
         for (ball, next) in state.balls.iter().zip(&self.next) {
+            if ball.saucer().is_some() {
+                busy = busy.min(self.due_out(ball).unwrap_or(u64::MAX));
+                continue;
+            }
             let (Support::None | Support::Line(_) | Support::Wedge(..), Some(next)) = (ball.support, next) else {
                 return 0;
             };
@@ -334,6 +366,10 @@ impl World {
                 tick += 1;
             }
             busy = busy.min(tick);
+        }
+        if self.scene.needs.hinges {
+            // A tick less, for the rounding of the division.
+            busy = busy.min(self.next_half_turn_tick().saturating_sub(1));
         }
         if self.scene.needs.ball_ball {
             // A tick less, for the rounding of the division.

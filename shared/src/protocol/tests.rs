@@ -31,7 +31,7 @@ fn a_frame_must_be_one_message_to_the_last_byte() {
 fn a_list_longer_than_its_bound_is_refused_before_it_is_read() {
     // A snapshot whose list of balls claims 2^32 items.
     let mut bytes = encode(&message_of(sample_snapshot()));
-    let balls = bytes.iter().position(|&b| b == 7).expect("the count of balls: variant, needs, tick, served, count");
+    let balls = bytes.iter().position(|&b| b == 9).expect("the count of balls: variant, needs, tick, served, count");
     bytes.splice(balls..=balls, [252, 255, 255, 255, 255]);
     let error = decode::<ServerMessage>(&bytes).expect_err("must be refused");
     assert!(error.to_string().contains("at most 1000"), "{error}");

@@ -10,6 +10,7 @@ use crate::game::{Action, GameEvent, GameEventKind, GameState, Phase};
 use crate::math::Digest;
 use crate::physics::ball::{Ball, Flight, Instant, Slide, Support};
 use crate::physics::flipper::{FlipperRest, FlipperState};
+use crate::physics::hinge::HingeState;
 use crate::physics::needs::Needs;
 use crate::physics::plunger::PlungerState;
 use crate::physics::{TargetState, WorldState};
@@ -166,6 +167,8 @@ pub(super) fn sample_snapshot() -> Snapshot {
         Support::Wedge(3, 4),
         Support::Flipper(0),
         Support::Plunger(0),
+        Support::Held(1),
+        Support::Released(2),
     ];
     let balls = supports.map(|support| Ball {
         id: 7,
@@ -186,12 +189,17 @@ pub(super) fn sample_snapshot() -> Snapshot {
         flippers: rests.map(|rest| FlipperState { rest, ..FlipperState::default() }).to_vec(),
         plungers: vec![PlungerState { hand: Some(0.5), ..PlungerState::default() }],
         targets: vec![TargetState::Up, TargetState::Down, TargetState::Rising],
+        hinges: vec![HingeState { start: Instant { tick: 9, offset: 0.25 }, angle: -0.5, speed: 20.0 }],
     };
     let kinds = [
         GameEventKind::Touched { element: 1, speed: 0.5 },
         GameEventKind::Kicked { element: 1, speed: 0.5 },
         GameEventKind::Felled { element: 1, speed: 0.5 },
         GameEventKind::Passed { element: 1 },
+        GameEventKind::Struck { element: 1, speed: 0.5 },
+        GameEventKind::Spun { element: 1 },
+        GameEventKind::Held { element: 1 },
+        GameEventKind::Ejected { element: 1 },
         GameEventKind::Points { seat: 0, points: 500, place: Some((0.1, 0.2)) },
         GameEventKind::Message { place: 1 },
         GameEventKind::Flipped { right: true },
@@ -199,11 +207,12 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::StoodUp { seat: 0 },
         GameEventKind::Started,
         GameEventKind::Served { seat: 0, ball: 1 },
+        GameEventKind::Added { seat: 0 },
         GameEventKind::Lost { seat: 0 },
         GameEventKind::Rescued,
         GameEventKind::Over,
     ];
-    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, quiet: 5 };
+    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, quiet: 5, extra: 6 };
     let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
     Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
 }

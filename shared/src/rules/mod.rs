@@ -40,6 +40,8 @@ pub enum Effect {
     Points(u64),
     /// A line for the display, by its place in the table's messages.
     Message(u16),
+    /// Another ball is to be put into play.
+    Serve,
 }
 
 /// Runs every rule that waits for `occasion`, on the score of the player whose turn it is and on the table's lights
@@ -73,13 +75,22 @@ fn matches(trigger: &Trigger, occasion: Occasion, table: &Table, world: &World) 
     match (trigger, occasion) {
         (Trigger::Hit(elements), Occasion::Physics(kind)) => {
             let element = match kind {
-                EventKind::Kicked { element, .. } | EventKind::Felled { element, .. } => element,
+                EventKind::Kicked { element, .. }
+                | EventKind::Felled { element, .. }
+                | EventKind::Struck { element, .. } => element,
                 EventKind::Touched { element, .. } if !table.acts[usize::from(element)] => element,
                 _ => return false,
             };
             elements.contains(&element)
         }
         (Trigger::Pass(elements), Occasion::Physics(EventKind::Passed { element })) => elements.contains(&element),
+        (Trigger::Spin(elements), Occasion::Physics(EventKind::Spun { element }))
+        | (Trigger::Hold(elements), Occasion::Physics(EventKind::Held { element })) => elements.contains(&element),
+        (Trigger::AllHeld(set), Occasion::Physics(EventKind::Held { element })) => {
+            let saucers = &world.scene().saucers;
+            let is_of_set = saucers.iter().position(|s| s.element == element).is_some_and(|p| set >> p & 1 == 1);
+            is_of_set && world.held() & set == *set
+        }
         (Trigger::AllDown(set), Occasion::Physics(EventKind::Felled { element, .. })) => {
             let is_of_set = table.targets.iter().position(|&e| e == element).is_some_and(|place| set >> place & 1 == 1);
             is_of_set && targets_down(world) & set == *set
@@ -129,6 +140,12 @@ fn perform(
                     world.raise(place as u16);
                 }
             }
+            Command::Kick(set) => {
+                for place in (0..world.scene().saucers.len()).filter(|place| set >> place & 1 == 1) {
+                    world.kick(place as u16);
+                }
+            }
+            Command::Serve => show(Effect::Serve),
             Command::Message(place) => show(Effect::Message(*place)),
         }
     }

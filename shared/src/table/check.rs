@@ -122,7 +122,8 @@ fn unreadable(file: &str, source: &str, error: &ron::error::SpannedError) -> Tab
 }
 
 pub(super) fn acts(element: &ElementFile) -> bool {
-    matches!(element, ElementFile::Bumper(_) | ElementFile::Slingshot(_) | ElementFile::DropTarget(_))
+    use ElementFile as E;
+    matches!(element, E::Bumper(_) | E::Slingshot(_) | E::DropTarget(_) | E::Target(_))
 }
 
 /// A written point as a vector.
@@ -318,6 +319,8 @@ impl<'a> Context<'a> {
             ("Light", count(|element| matches!(element, ElementFile::Light(_)))),
             ("Flipper", count(|element| matches!(element, ElementFile::Flipper(_)))),
             ("Plunger", count(|element| matches!(element, ElementFile::Plunger(_)))),
+            ("Spinner or Gate", count(|element| matches!(element, ElementFile::Spinner(_) | ElementFile::Gate(_)))),
+            ("Saucer", count(|element| matches!(element, ElementFile::Saucer(_)))),
         ];
         for (kind, found) in kinds {
             if found > MOST_PARTS {

@@ -498,10 +498,16 @@ pub struct RuleFile {
 /// What a rule waits for. Names are of an element or of a group (then any of its members).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub enum EventFile {
-    /// A bumper or slingshot kicked, a drop target fell, a post or wall was touched.
+    /// A bumper or slingshot kicked, a drop target fell, a target was hit, a post, wall or plate was touched.
     Hit(String),
-    /// A ball passed a rollover.
+    /// A ball passed a rollover, or went through a gate or a spinner.
     Pass(String),
+    /// A spinner turned half round.
+    Spin(String),
+    /// A saucer caught a ball.
+    Hold(String),
+    /// The last saucer of a group caught a ball: all of them hold one.
+    AllHeld(String),
     /// The last light of a group was lit.
     AllLit(String),
     /// The last drop target of a group fell.
@@ -529,6 +535,10 @@ pub enum ActionFile {
     Unlight(String),
     /// A drop target, or a group of them, up again.
     Raise(String),
+    /// A saucer, or a group of them, throws out the ball that it holds.
+    Kick(String),
+    /// Another ball is put into play where balls are served, as soon as no ball is there.
+    Serve,
     /// A line on the display.
     Message(String),
 }

@@ -7,6 +7,8 @@ mod error;
 pub mod format;
 pub(crate) mod locate;
 mod mechanisms;
+#[cfg(test)]
+mod mechanisms_tests;
 mod rulebook;
 mod scene_form;
 mod shapes;

@@ -31,8 +31,14 @@ pub struct Rule {
 pub enum Trigger {
     /// One of these elements was hit.
     Hit(Vec<u16>),
-    /// One of these rollovers was passed.
+    /// One of these rollovers, gates or spinners was passed.
     Pass(Vec<u16>),
+    /// One of these spinners turned half round.
+    Spin(Vec<u16>),
+    /// One of these saucers caught a ball.
+    Hold(Vec<u16>),
+    /// All of these saucers hold a ball, the last of them since just now. One bit a saucer.
+    AllHeld(u64),
     /// All of these lights are lit, the last of them just now. One bit a light.
     AllLit(u64),
     /// All of these targets are down, the last of them just now. One bit a target.
@@ -60,6 +66,10 @@ pub enum Command {
     Unlight(u64),
     /// Targets up, one bit a target.
     Raise(u64),
+    /// Saucers throw out what they hold, one bit a saucer.
+    Kick(u64),
+    /// Another ball.
+    Serve,
     /// A line on the display, by its place in [`RuleBook::messages`].
     Message(u16),
 }
@@ -75,9 +85,11 @@ const MOST_POINTS: u64 = 1_000_000_000;
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Hittable,
-    Rollover,
+    Passable,
     Light,
     Target,
+    Spinner,
+    Saucer,
 }
 
 impl Kind {
@@ -93,25 +105,35 @@ impl Kind {
                         | E::OneWay(_)
                         | E::Target(_)
                         | E::Gate(_)
+                        | E::Spinner(_)
                         | E::Bumper(_)
                         | E::Slingshot(_)
                         | E::DropTarget(_)
                 )
             }
-            Self::Rollover => matches!(element, E::Rollover(_)),
+            Self::Passable => matches!(element, E::Rollover(_) | E::Gate(_) | E::Spinner(_)),
             Self::Light => matches!(element, E::Light(_)),
             Self::Target => matches!(element, E::DropTarget(_)),
+            Self::Spinner => matches!(element, E::Spinner(_)),
+            Self::Saucer => matches!(element, E::Saucer(_)),
         }
     }
 
     fn expected(self) -> &'static str {
         match self {
             Self::Hittable => "something that a ball can hit",
-            Self::Rollover => "a Rollover",
+            Self::Passable => "a Rollover, Gate or Spinner",
             Self::Light => "a Light",
             Self::Target => "a DropTarget",
+            Self::Spinner => "a Spinner",
+            Self::Saucer => "a Saucer",
         }
     }
+}
+
+/// Whether the rules can put more than one ball into play.
+pub(super) fn serves(rules: &RulesFile) -> bool {
+    rules.on.iter().any(|rule| rule.run.contains(&ActionFile::Serve))
 }
 
 pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBook, TableError> {
@@ -144,9 +166,12 @@ pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBo
 fn trigger(context: &Context<'_>, event: &EventFile) -> Result<Trigger, String> {
     Ok(match event {
         EventFile::Hit(name) => Trigger::Hit(elements(context, name, Kind::Hittable)?),
-        EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Rollover)?),
+        EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Passable)?),
         EventFile::AllLit(name) => Trigger::AllLit(bits(context, name, Kind::Light)?),
         EventFile::AllDown(name) => Trigger::AllDown(bits(context, name, Kind::Target)?),
+        EventFile::Spin(name) => Trigger::Spin(elements(context, name, Kind::Spinner)?),
+        EventFile::Hold(name) => Trigger::Hold(elements(context, name, Kind::Saucer)?),
+        EventFile::AllHeld(name) => Trigger::AllHeld(bits(context, name, Kind::Saucer)?),
         EventFile::BallStart => Trigger::BallStart,
         EventFile::BallEnd => Trigger::BallEnd,
     })
@@ -161,6 +186,8 @@ fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String
         ActionFile::Light(name) => Command::Light(bits(context, name, Kind::Light)?),
         ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
         ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
+        ActionFile::Kick(name) => Command::Kick(bits(context, name, Kind::Saucer)?),
+        ActionFile::Serve => Command::Serve,
         ActionFile::Message(text) => {
             if !is_printable(text) {
                 return Err(unprintable(text));

@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::check::{Context, Spot, vector};
 use super::error::TableError;
 use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point, TableFile};
+use super::rulebook;
 use crate::math::{direction, radians, tangent};
 use crate::physics::flipper::FlipperSpec;
 use crate::physics::needs::Needs;
@@ -32,6 +33,9 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
         flippers: Vec::new(),
         plungers: Vec::new(),
         targets: 0,
+        hinges: Vec::new(),
+        saucers: Vec::new(),
+        multiball: rulebook::serves(&file.rules),
         needs: Needs::default(),
         grid: None,
         edge: bare.bounds,

@@ -213,7 +213,13 @@ const CASES: &[Case] = &[
         ("rule 2", "event"),
         "something that a ball can hit would be right",
     ),
-    case("Pass(\"rollover\")", "Pass(\"drop\")", "Pass", ("rule 4", "event"), "a Rollover would be right"),
+    case(
+        "Pass(\"rollover\")",
+        "Pass(\"drop\")",
+        "Pass",
+        ("rule 4", "event"),
+        "a Rollover, Gate or Spinner would be right",
+    ),
     case(
         "AllLit(\"light\")",
         "AllLit(\"all\")",

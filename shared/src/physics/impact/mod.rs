@@ -74,14 +74,16 @@ pub fn ball_shape(flight: &Flight, radius: f64, shape: &Shape, search: &Search) 
     }
 }
 
-/// The first time within `search` at which the ball's centre passes a sensor, hole or drain, in either direction.
+/// The first time within `search` at which the ball's centre passes a sensor, plate, hole or drain, in either direction, or enters a
+/// saucer.
 pub fn center_passes(flight: &Flight, collider: &Collider, search: &Search) -> TimeOfImpact {
     match &collider.shape {
         Shape::Segment(segment) => {
-            let begins = matches!(collider.role, Role::Hole { .. });
+            let begins = matches!(collider.role, Role::Hole { .. } | Role::Hinge { .. });
             ball_segment::first_pass(flight, segment, begins, search)
         }
-        Shape::Arc(_) => TimeOfImpact::Separated,
+        // A circle is passed where the centre enters it.
+        Shape::Arc(arc) => ball_arc::first_impact(flight, 0.0, arc, Rounding::of(flight, 0.0), search),
     }
 }
 

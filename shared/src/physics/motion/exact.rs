@@ -25,6 +25,7 @@ impl MotionModel for Exact {
         }
         let to = match ball.support {
             Support::None | Support::Stalled | Support::Line(_) | Support::Wedge(..) => f64::INFINITY,
+            Support::Held(_) | Support::Released(_) => f64::INFINITY,
             // The flight holds for this tick only.
             Support::Arc(_) | Support::Flipper(_) | Support::Plunger(_) => query.tick.to,
         };

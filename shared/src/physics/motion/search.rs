@@ -218,5 +218,6 @@ pub(super) fn is_part_of_support(scene: &Scene, support: Support, collider: u16)
         }
         Support::Wedge(a, b) => is_same(a) || is_same(b),
         Support::None | Support::Stalled | Support::Flipper(_) | Support::Plunger(_) => false,
+        Support::Held(_) | Support::Released(_) => false,
     }
 }

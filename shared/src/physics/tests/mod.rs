@@ -3,9 +3,11 @@
 mod balls;
 mod elements;
 mod flippers;
+mod hinges;
 mod needs;
 mod plunger;
 mod restore;
+mod saucers;
 mod searches;
 mod surfaces;
 mod tunnelling;

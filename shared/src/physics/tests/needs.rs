@@ -68,14 +68,14 @@ fn what_is_not_needed_is_not_in_a_state() {
     assert_eq!(of(&scene(-1.0, "", "")), bare + 16, "with gravity a ball can rest: it has an acceleration of its own");
     // Each part of a state is there for one need.
     for (place, name) in Needs::NAMES.into_iter().enumerate() {
-        let mut flags = [false; 12];
+        let mut flags = [false; Needs::COUNT];
         flags[place] = true;
         let forced = Arc::new((*plain).clone().with_needs(Needs::from_flags(flags)));
         let more = match name {
             "contact" => 16,
             "spin" => 8,
             "kinds" | "floors" => 1,
-            "flippers" | "plungers" | "targets" => 8,
+            "flippers" | "plungers" | "targets" | "hinges" => 8,
             _ => 0,
         };
         assert_eq!(of(&forced), bare + more, "{name}");

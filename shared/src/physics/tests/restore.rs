@@ -81,7 +81,7 @@ impl Seen {
                 Support::Arc(_) => self.arcs += 1,
                 Support::Flipper(_) => self.on_flipper += 1,
                 Support::Plunger(_) => self.on_plunger += 1,
-                Support::Wedge(..) | Support::Stalled => {}
+                Support::Wedge(..) | Support::Stalled | Support::Held(_) | Support::Released(_) => {}
             }
         }
         self.flipper_moving += u32::from(world.state.flippers.iter().any(|f| f.rest == FlipperRest::Moving));
