@@ -29,6 +29,9 @@ const WRITTEN: [&str; 3] = ["NaN", "inf", "-inf"];
 
 /// One of everything that has numbers.
 const TABLE: &str = r#"(format: 1, physics: 3, name: "all", size: (1.0, 1.0), tick_hz: 1000, pixel: 0.001, gravity: (0.0, -0.793),
+    floors: [(0.0, -2.5)],
+    cabinet: (nudge: 0.06, frequency: (9.3, 5.8), damping: (0.052, 0.055), bob_length: 0.1, bob_damping: 0.05, tilt: 1.0,
+        warnings: 2),
     rest_speed: 0.02, ball: (radius: 0.0135, mass: 0.08, start: (0.5, 0.9)),
     materials: { "m": (restitution: 0.8, falloff: 0.3, friction: 0.6, tangential: 0.9) },
     elements: [
@@ -48,6 +51,8 @@ const TABLE: &str = r#"(format: 1, physics: 3, name: "all", size: (1.0, 1.0), ti
         DropTarget(name: "target", material: "m", from: (0.9, 0.55), to: (0.87, 0.61), threshold: 0.1),
         Rollover(name: "rollover", from: (0.3, 0.4), to: (0.7, 0.43)),
         Hole(name: "hole", from: (0.3, 0.8), to: (0.35, 0.8), floor: 0, leads_to: 1),
+        Edge(name: "edge", from: (0.4, 0.8), to: (0.45, 0.8), floors: (0, 1)),
+        Magnet(name: "magnet", center: (0.5, 0.7), radius: 0.06, core: 0.012, strength: 15.0, drag: 8.0, on: false, floor: 0),
         Light(name: "light", center: (0.3, 0.3), radius: 0.01, color: Amber),
         Flipper(name: "flipper", material: "m", hand: Left, pivot: (0.35, 0.2),
             length: 0.0635, base_radius: 0.0111, tip_radius: 0.00635, rest: 120.5, raised: 70.0,
@@ -60,7 +65,7 @@ const TABLE: &str = r#"(format: 1, physics: 3, name: "all", size: (1.0, 1.0), ti
     rules: (balls: 3, max_multiplier: 6, on: []))"#;
 
 /// The same of a bare scene.
-const SCENE: &str = r#"Scene(name: "all", gravity: (0.0, -0.793), tick_hz: 1000, pixel: 0.001, ball_restitution: 0.9,
+const SCENE: &str = r#"Scene(name: "all", gravity: (0.0, -0.793), floors: [(0.0, -2.5)], tick_hz: 1000, pixel: 0.001, ball_restitution: 0.9,
     bounds: (0.0, 0.0, 1.0, 1.0),
     balls: [(position: (0.3, 0.3), velocity: (1.0, 0.5), radius: 0.01, mass: 0.05), (position: (0.5, 0.5))],
     elements: [
@@ -68,6 +73,7 @@ const SCENE: &str = r#"Scene(name: "all", gravity: (0.0, -0.793), tick_hz: 1000,
         Post(center: (0.7, 0.5), radius: 0.05, restitution: 0.8),
         Ring(center: (0.5, 0.5), radius: 0.6, restitution: 0.8),
         Hole(from: (0.2, 0.2), to: (0.25, 0.2), floor: 0, leads_to: 1),
+        Edge(from: (0.2, 0.3), to: (0.25, 0.3), floors: (0, 1)),
     ])"#;
 
 /// Where numbers stand in a text: not in names, and not in strings.

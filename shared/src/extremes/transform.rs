@@ -97,6 +97,9 @@ impl Similarity {
         let mut other = scene.clone();
         other.pixel = self.length(scene.pixel);
         other.gravity = self.vector(scene.gravity);
+        for gravity in &mut other.floors {
+            *gravity = self.vector(*gravity);
+        }
         other.rest_speed = self.length(scene.rest_speed);
         other.ball_material = self.material(&scene.ball_material);
         other.origin = self.point(scene.origin) - self.shift;
@@ -120,6 +123,16 @@ impl Similarity {
         }
         for hinge in &mut other.hinges {
             *hinge = self.hinge(hinge);
+        }
+        for magnet in &mut other.magnets {
+            magnet.center = self.point(magnet.center);
+            magnet.reach = self.length(magnet.reach);
+            magnet.core = self.length(magnet.core);
+            magnet.strength = self.length(magnet.strength);
+        }
+        if let Some(cabinet) = &mut other.cabinet {
+            cabinet.speed = self.length(cabinet.speed);
+            cabinet.ring = self.length(cabinet.ring);
         }
         for saucer in &mut other.saucers {
             (saucer.center, saucer.kick) = (self.point(saucer.center), self.vector(saucer.kick));
@@ -157,7 +170,7 @@ impl Similarity {
             }
             Role::Target { index, threshold } => Role::Target { index, threshold: self.length(threshold) },
             Role::Standing { threshold } => Role::Standing { threshold: self.length(threshold) },
-            Role::Hinge { .. } | Role::Saucer { .. } => role,
+            Role::Hinge { .. } | Role::Saucer { .. } | Role::Field { .. } => role,
             Role::Solid | Role::Sensor | Role::Hole { .. } | Role::Drain => role,
         }
     }

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::input::Nudge;
 use crate::physics::{Event, EventKind};
 
 /// Something that happened.
@@ -116,6 +117,21 @@ pub enum GameEventKind {
     Rescued,
     /// The game is over.
     Over,
+    /// The table was nudged.
+    Nudged {
+        /// From where.
+        nudge: Nudge,
+    },
+    /// The plumb bob touched its ring: another time, and the game tilts.
+    Warned {
+        /// Whose turn it is.
+        seat: u8,
+    },
+    /// It touched once too often: the buttons are dead until the ball is lost.
+    Tilted {
+        /// Whose turn it is.
+        seat: u8,
+    },
 }
 
 impl GameEventKind {

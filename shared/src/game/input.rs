@@ -6,6 +6,17 @@ use serde::{Deserialize, Serialize};
 /// Seats at a table: players who alternate ball by ball.
 pub const SEATS: usize = 2;
 
+/// Where a nudge comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Nudge {
+    /// A slap on the left side: the table goes to the right.
+    FromLeft,
+    /// A slap on the right side.
+    FromRight,
+    /// A push forward, up the table.
+    Forward,
+}
+
 /// What somebody does.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,12 +38,14 @@ pub enum Action {
     Pull(u16),
     /// Lets go of it.
     Release,
+    /// Nudges the table.
+    Nudge(Nudge),
 }
 
 impl Action {
     /// Whether it is a button or the plunger, which a seated player works directly.
     pub fn is_control(self) -> bool {
-        matches!(self, Self::Flipper { .. } | Self::Pull(_) | Self::Release)
+        matches!(self, Self::Flipper { .. } | Self::Pull(_) | Self::Release | Self::Nudge(_))
     }
 }
 

@@ -11,14 +11,18 @@ pub mod replay;
 mod state;
 #[cfg(test)]
 mod tests;
+mod tilt;
+#[cfg(test)]
+mod tilt_tests;
 
 use std::sync::Arc;
 
 pub use bot::Bot;
 pub use events::{GameEvent, GameEventKind};
-pub use input::{Action, Input, SEATS};
+pub use input::{Action, Input, Nudge, SEATS};
 pub(crate) use state::sample_play;
 pub use state::{GameState, Phase, Play, Seat};
+pub use tilt::Tilt;
 
 use glam::DVec2;
 
@@ -89,6 +93,9 @@ impl Game {
         self.serve_extra();
         // 3. The world moves.
         self.world.step();
+        if self.table.scene.needs.nudge {
+            self.heed_the_bob();
+        }
         // 4. The rules make points of what happened.
         self.apply_rules();
         // 5. The last lost ball ends the turn; a stuck one is served again.
@@ -133,6 +140,11 @@ impl Game {
     /// Who is seated, and their points.
     pub fn seats(&self) -> &[Seat; SEATS] {
         &self.play.seats
+    }
+
+    /// Warnings and the tilt of the ball that is played.
+    pub fn tilt(&self) -> Tilt {
+        self.play.tilt
     }
 
     /// Lit lights, one bit each.
@@ -207,6 +219,8 @@ impl Game {
                     self.start();
                 }
             }
+            // A tilted game hears no buttons.
+            _ if self.play.tilt.tilted => {}
             Action::Flipper { right, pressed } => {
                 if self.play.phase.has_turn(seat) {
                     if pressed {
@@ -218,6 +232,11 @@ impl Game {
             Action::Pull(share) => {
                 if self.play.phase.has_turn(seat) {
                     self.world.pull(Some(f64::from(share) / f64::from(u16::MAX)));
+                }
+            }
+            Action::Nudge(nudge) => {
+                if self.play.phase.has_turn(seat) {
+                    self.nudge(nudge);
                 }
             }
             Action::Release => {
@@ -257,6 +276,7 @@ impl Game {
         }
         self.world.pull(None);
         self.world.clear_balls();
+        self.play.tilt = Tilt::default();
         let serve_in = self.ticks(pause);
         self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0, quiet: 0, extra: 0 };
     }
@@ -333,6 +353,9 @@ impl Game {
     /// Runs the rules for the player whose turn it is.
     fn occasion(&mut self, occasion: Occasion, position: Option<DVec2>) {
         let Phase::Play { seat, .. } = self.play.phase else { return };
+        if self.play.tilt.tilted {
+            return;
+        }
         let tick = self.now;
         let (events, phase) = (&mut self.events, &mut self.play.phase);
         let score = &mut self.play.seats[usize::from(seat)].score;

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::input::SEATS;
+use super::tilt::Tilt;
 use crate::physics::{StateError, WorldState};
 use crate::rules::Score;
 
@@ -64,6 +65,8 @@ pub struct Play {
     pub(super) seats: [Seat; SEATS],
     /// One bit a light.
     pub(super) lights: u64,
+    /// How the player whose turn it is treats the table.
+    pub(super) tilt: Tilt,
 }
 
 impl Play {
@@ -91,7 +94,12 @@ impl Play {
 /// A state that has something in every field: one of the protocol's samples.
 pub(crate) fn sample_play(phase: Phase) -> Play {
     let score = Score { points: 300, bonus: 70_000, multiplier: 2 };
-    Play { phase, seats: [Seat { taken: true, playing: true, score }; SEATS], lights: 5 }
+    Play {
+        phase,
+        seats: [Seat { taken: true, playing: true, score }; SEATS],
+        lights: 5,
+        tilt: Tilt { warnings: 1, same_touch: 300, tilted: true },
+    }
 }
 
 /// The state of a game: what is saved, sent and digested.

@@ -118,6 +118,13 @@ pub const LOST_CONTACT: f64 = 0.01;
 /// ball that is shot costs more.
 pub const PIECE_ANGLE: f64 = 0.01;
 
+/// Speed of the table, m/s, below which what is left of a nudge is nothing: a two-hundredth of a ball's rest speed on a real
+/// table. Smaller: more ticks of work after each nudge. Larger: its end is felt.
+pub const STILL_TABLE: f64 = 1e-4;
+
+/// Share of its ring's radius below which a plumb bob's swing is nothing. Larger: nudges one after the other do not add up.
+pub const STILL_BOB: f64 = 1e-3;
+
 /// Ball radii from a target's place within which a ball keeps the target from rising: a hundredth more than a touch.
 pub const CLEAR_OF_TARGET: f64 = 1.01;
 

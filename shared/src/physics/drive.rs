@@ -87,7 +87,7 @@ impl World {
             let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.radius(ball.kind));
             let mass = scene.mass(ball.kind);
             // What the flipper must push the ball with, beyond the change of its own turn.
-            let push = carried.acceleration - self.pull_at(ball).dot(carried.normal);
+            let push = carried.acceleration - self.pull_at(ball, center, velocity, 0.0).dot(carried.normal);
             if carried.lever * drive / spec.inertia + push > 0.0 {
                 torque -= mass * carried.lever * push;
                 inertia += mass * carried.lever * carried.lever;

@@ -188,6 +188,7 @@ impl World {
                         self.next[ball] = None;
                         self.emit(ball, offset, position, velocity, EventKind::Passed { element });
                     }
+                    Role::Field { index: magnet } => self.enter_field(ball, index, magnet, offset, t),
                     Role::Hole { to } => {
                         self.impacts[ball] += 1;
                         if self.impacts[ball] > self.most_impacts {
@@ -408,8 +409,10 @@ impl World {
     ) {
         let is_possible = velocity.length_squared() <= MOST_SPEED * MOST_SPEED;
         let velocity = if is_possible { velocity } else { velocity * (MOST_SPEED / velocity.length()) };
-        let (spin, radius, pull) = (self.state.balls[ball].spin, self.radius(ball), self.pull_on(ball));
-        let ahead = 0.5 * (self.scene.tick_seconds - offset);
+        let left = self.scene.tick_seconds - offset;
+        let (spin, radius, pull) =
+            (self.state.balls[ball].spin, self.radius(ball), self.pull_on(ball, position, velocity, left));
+        let ahead = 0.5 * left;
         let settled = if self.scene.needs.contact {
             settle(&self.scene, &Moment { radius, position, velocity, spin, pull, ahead }, hit, before)
         } else {

@@ -60,7 +60,7 @@ impl World {
         let subject = &self.state.balls[ball];
         let piece = &subject.flight;
         let way = place - piece.position;
-        let worked = self.pull_on(ball).dot(way);
+        let worked = self.pull_of_flight(ball).dot(way);
         let gained = match subject.slide {
             Some(Slide { spin_rate, .. }) => worked + spin_rate * SPHERE_INERTIA * self.radius(ball) * way.dot(along),
             None => collider.material.rolling_share() * worked,
@@ -98,7 +98,7 @@ impl World {
         if rolls && friction > 0.0 {
             self.state.balls[ball].spin = -speed / radius;
         }
-        let pull = self.pull_on(ball);
+        let pull = self.pull_on(ball, position, velocity, self.piece(support, offset));
         let push = self.mover_push(support, offset, position, velocity, radius);
         // Pressed on by less than nothing: it flies.
         let velocity = if leaving > self.scene.rest_speed { velocity } else { velocity - normal * leaving };

@@ -2,6 +2,7 @@
 
 pub mod ball;
 pub mod broad_phase;
+pub mod cabinet;
 pub mod constants;
 pub mod contact;
 mod drive;
@@ -11,6 +12,7 @@ mod follow;
 mod friction;
 pub mod hinge;
 pub mod impact;
+pub mod magnet;
 mod meetings;
 pub mod motion;
 mod movers;

@@ -6,7 +6,7 @@ use super::shapes::{Shape, Side};
 /// Which parts of the physics a scene requires.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Needs {
-    /// Something pulls free balls: flights are curved.
+    /// A slope pulls free balls: flights are curved.
     pub gravity: bool,
     /// Some surface has friction.
     pub friction: bool,
@@ -33,6 +33,10 @@ pub struct Needs {
     pub hinges: bool,
     /// There are saucers.
     pub saucers: bool,
+    /// There are magnets.
+    pub magnets: bool,
+    /// The table can be nudged.
+    pub nudge: bool,
     /// There are so many shapes that a grid finds the ones near a flight faster than a look at all of them.
     pub broad_phase: bool,
 }
@@ -43,7 +47,7 @@ const BROAD_PHASE_FROM: usize = 24;
 
 impl Needs {
     /// How many there are.
-    pub const COUNT: usize = 14;
+    pub const COUNT: usize = 16;
 
     /// The names of all needs, in the order of [`Self::flags`].
     pub const NAMES: [&'static str; Self::COUNT] = [
@@ -61,6 +65,8 @@ impl Needs {
         "broad phase",
         "hinges",
         "saucers",
+        "magnets",
+        "nudge",
     ];
 
     /// Everything.
@@ -73,7 +79,8 @@ impl Needs {
             || colliders.iter().any(|collider| collider.material.friction > 0.0)
             || scene.flippers.iter().any(|flipper| flipper.material.friction > 0.0)
             || scene.plungers.iter().any(|plunger| plunger.material.friction > 0.0);
-        let gravity = scene.gravity != glam::DVec2::ZERO;
+        let pulls = |gravity: &glam::DVec2| *gravity != glam::DVec2::ZERO;
+        let gravity = pulls(&scene.gravity) || scene.floors.iter().any(pulls);
         let movers = !scene.flippers.is_empty() || !scene.plungers.is_empty();
         let hollow =
             |collider: &super::scene::Collider| matches!(collider.shape, Shape::Arc(arc) if arc.side == Side::Inside);
@@ -81,7 +88,11 @@ impl Needs {
             gravity,
             friction,
             spin: friction,
-            contact: gravity || movers || colliders.iter().any(hollow),
+            contact: gravity
+                || movers
+                || scene.cabinet.is_some()
+                || !scene.magnets.is_empty()
+                || colliders.iter().any(hollow),
             ball_ball: scene.start.len() > 1 || scene.multiball,
             kinds: scene.kinds.len() > 1,
             flippers: !scene.flippers.is_empty(),
@@ -91,6 +102,8 @@ impl Needs {
             sensors: colliders.iter().any(|collider| collider.role.is_passed()),
             hinges: !scene.hinges.is_empty(),
             saucers: !scene.saucers.is_empty(),
+            magnets: !scene.magnets.is_empty(),
+            nudge: scene.cabinet.is_some(),
             broad_phase: colliders.len() >= BROAD_PHASE_FROM,
         }
     }
@@ -117,6 +130,8 @@ impl Needs {
             self.broad_phase,
             self.hinges,
             self.saucers,
+            self.magnets,
+            self.nudge,
         ]
     }
 
@@ -137,6 +152,8 @@ impl Needs {
             broad_phase,
             hinges,
             saucers,
+            magnets,
+            nudge,
         ] = flags;
         Self {
             gravity,
@@ -153,6 +170,8 @@ impl Needs {
             broad_phase,
             hinges,
             saucers,
+            magnets,
+            nudge,
         }
     }
 

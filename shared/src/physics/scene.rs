@@ -3,9 +3,11 @@
 use glam::DVec2;
 
 use super::broad_phase::Grid;
+use super::cabinet::CabinetSpec;
 use super::constants::ROLLING_SHARE;
 use super::flipper::FlipperSpec;
 use super::hinge::HingeSpec;
+use super::magnet::MagnetSpec;
 use super::motion::Motion;
 use super::needs::Needs;
 use super::plunger::PlungerSpec;
@@ -78,6 +80,11 @@ pub enum Role {
         /// Place among the scene's saucers.
         index: u16,
     },
+    /// The rim of a magnet's field.
+    Field {
+        /// Place among the scene's magnets.
+        index: u16,
+    },
     /// A ball whose centre passes it drops, or climbs, to another floor.
     Hole {
         /// The floor that it leads to.
@@ -91,7 +98,12 @@ impl Role {
     /// Whether a ball passes it, rather than being stopped by it.
     pub fn is_passed(self) -> bool {
         match self {
-            Self::Sensor | Self::Hinge { .. } | Self::Saucer { .. } | Self::Hole { .. } | Self::Drain => true,
+            Self::Sensor
+            | Self::Hinge { .. }
+            | Self::Saucer { .. }
+            | Self::Field { .. }
+            | Self::Hole { .. }
+            | Self::Drain => true,
             Self::Solid | Self::Kicker { .. } | Self::Target { .. } | Self::Standing { .. } => false,
         }
     }
@@ -160,8 +172,10 @@ pub struct Scene {
     pub tick_seconds: f64,
     /// The pixel model's step, m.
     pub pixel: f64,
-    /// Acceleration of a free ball, m/s^2.
+    /// Acceleration of a free ball on the playfield, m/s^2.
     pub gravity: DVec2,
+    /// The same on the floors above the playfield, from floor 1 on; on those beyond the list it is that of the playfield.
+    pub floors: Vec<DVec2>,
     /// Normal speed after an impact below which a ball stays in contact, m/s. At 0 it does where its next hop would be lost in
     /// rounding.
     pub rest_speed: f64,
@@ -188,6 +202,10 @@ pub struct Scene {
     pub hinges: Vec<HingeSpec>,
     /// Saucers.
     pub saucers: Vec<SaucerSpec>,
+    /// Magnets.
+    pub magnets: Vec<MagnetSpec>,
+    /// How the table moves when it is nudged; `None`: it stands like a rock.
+    pub cabinet: Option<CabinetSpec>,
     /// Whether there may be more balls in play than those of the start and the one that is served.
     pub multiball: bool,
     /// What this scene requires: of [`Self::built`].
@@ -218,6 +236,12 @@ impl Scene {
         self.needs = needs;
         self.grid = needs.broad_phase.then(|| Grid::new(&self.colliders, self.largest_radius()));
         self
+    }
+
+    /// Acceleration of a free ball on that floor, m/s^2.
+    pub fn gravity_on(&self, floor: u8) -> DVec2 {
+        let above = usize::from(floor).checked_sub(1).and_then(|place| self.floors.get(place));
+        above.copied().unwrap_or(self.gravity)
     }
 
     /// Radius of the largest ball, m.

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::ball::{Ball, Instant, Support};
+use super::cabinet::CabinetState;
 use super::constants::MOST_SPEED;
 use super::flipper::FlipperState;
 use super::hinge::HingeState;
@@ -57,6 +58,10 @@ pub struct WorldState {
     pub targets: Vec<TargetState>,
     /// In the scene's order.
     pub hinges: Vec<HingeState>,
+    /// In the scene's order: whether it is on.
+    pub magnets: Vec<bool>,
+    /// The table's own motion.
+    pub cabinet: CabinetState,
 }
 
 /// Why a state was refused.
@@ -108,6 +113,8 @@ impl WorldState {
             plungers: vec![PlungerState::default(); scene.plungers.len()],
             targets: vec![TargetState::Up; usize::from(scene.targets)],
             hinges: vec![HingeState::default(); scene.hinges.len()],
+            magnets: scene.magnets.iter().map(|magnet| magnet.on).collect(),
+            cabinet: CabinetState::default(),
         };
         state.reserve_balls();
         state
@@ -146,6 +153,7 @@ impl WorldState {
             ("plungers", self.plungers.len(), scene.plungers.len()),
             ("targets", self.targets.len(), usize::from(scene.targets)),
             ("hinges", self.hinges.len(), scene.hinges.len()),
+            ("magnets", self.magnets.len(), scene.magnets.len()),
         ];
         for (what, found, expected) in counts {
             if found != expected {
@@ -167,6 +175,9 @@ impl WorldState {
             if !(in_stroke && coil_is_possible && is_slow(flipper.speed * spec.reach())) {
                 return Err(StateError::Number { what: "flipper", index });
             }
+        }
+        if !self.cabinet.is_finite() {
+            return Err(StateError::Number { what: "cabinet", index: 0 });
         }
         for (index, (plunger, spec)) in self.plungers.iter().zip(&scene.plungers).enumerate() {
             let in_stroke = (-spec.stroke..=2.0 * spec.stroke).contains(&plunger.pull);

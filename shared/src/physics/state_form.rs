@@ -3,7 +3,7 @@
 //!
 //! | always | if needed |
 //! |---|---|
-//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges |
+//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges, magnets, the cabinet |
 
 use core::fmt;
 
@@ -13,6 +13,7 @@ use serde::ser::{SerializeSeq, SerializeTuple};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::ball::{Ball, Flight, Instant, Support};
+use super::cabinet::CabinetState;
 use super::needs::Needs;
 use super::state::{MOST_BALLS, MOST_PARTS, WorldState};
 use crate::math::bounded;
@@ -20,8 +21,8 @@ use crate::math::bounded;
 impl Serialize for WorldState {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let needs = self.needs;
-        let parts =
-            [needs.flippers, needs.plungers, needs.targets, needs.hinges].into_iter().filter(|&needed| needed).count();
+        let parts = [needs.flippers, needs.plungers, needs.targets, needs.hinges, needs.magnets, needs.nudge];
+        let parts = parts.into_iter().filter(|&needed| needed).count();
         let mut tuple = serializer.serialize_tuple(4 + parts)?;
         tuple.serialize_element(&needs.bits())?;
         tuple.serialize_element(&self.tick)?;
@@ -38,6 +39,12 @@ impl Serialize for WorldState {
         }
         if needs.hinges {
             tuple.serialize_element(&self.hinges)?;
+        }
+        if needs.magnets {
+            tuple.serialize_element(&self.magnets)?;
+        }
+        if needs.nudge {
+            tuple.serialize_element(&self.cabinet)?;
         }
         tuple.end()
     }
@@ -69,12 +76,14 @@ impl<'de> Deserialize<'de> for WorldState {
                     plungers: parts(&mut seq, needs.plungers)?,
                     targets: parts(&mut seq, needs.targets)?,
                     hinges: parts(&mut seq, needs.hinges)?,
+                    magnets: parts(&mut seq, needs.magnets)?,
+                    cabinet: if needs.nudge { next(&mut seq, "cabinet")? } else { CabinetState::default() },
                 })
             }
         }
 
         // How many elements follow is known once the first of them is read.
-        deserializer.deserialize_tuple(8, State)
+        deserializer.deserialize_tuple(10, State)
     }
 }
 

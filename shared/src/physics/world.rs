@@ -131,6 +131,8 @@ pub struct World {
     /// For each ball, its next meeting with another. Can be recomputed to the same bits.
     pub(super) meetings: Meetings,
     scratch: Scratch,
+    /// Acceleration of the table in the last tick, m/s^2.
+    pub(super) before: DVec2,
     /// Before this tick nothing happens, unless somebody does something. Can be recomputed.
     pub(super) busy_from: u64,
     /// The same, or 0 while there is something to tell of the last tick: before it a step only counts.
@@ -151,6 +153,7 @@ impl World {
             most_impacts: (per_tick as u32).max(MOST_IMPACTS_PER_TICK),
             meetings: Meetings::with_capacity(MOST_BALLS),
             scratch: Scratch::new(scene.colliders.len()),
+            before: DVec2::ZERO,
             busy_from: 0,
             quiet_until: 0,
             state: WorldState::new(&scene),
@@ -188,12 +191,18 @@ impl World {
         let needs = self.scene.needs;
         self.impacts.clear();
         self.impacts.resize(self.state.balls.len(), 0);
-        // 1. Flippers and plungers: which of them move in this tick, and how they are driven.
+        // 1. The table itself, where it was nudged. Flippers and plungers: which of them move in this tick, and how they are driven.
+        if needs.nudge && !self.state.cabinet.is_still() {
+            self.move_cabinet();
+        }
         if needs.flippers || needs.plungers {
             self.drive_movers();
         }
-        // 2. Balls on a curved or moving surface begin a new piece of flight along it.
+        // 2. Balls on a curved or moving surface, or in a field, begin a new piece of flight.
         self.follow_surfaces();
+        if needs.magnets {
+            self.follow_fields();
+        }
         if needs.saucers {
             self.throw_out();
         }
@@ -215,7 +224,7 @@ impl World {
     }
 
     /// Somebody did something: the next tick may be a busy one.
-    fn wake(&mut self) {
+    pub(super) fn wake(&mut self) {
         (self.quiet_until, self.busy_from) = (0, 0);
     }
 
@@ -252,6 +261,7 @@ impl World {
         self.state.reserve_balls();
         self.meetings.forget(self.state.balls.len());
         self.events.clear();
+        self.before = DVec2::ZERO;
         self.wake();
         Ok(())
     }
@@ -345,7 +355,9 @@ impl World {
         let (state, dt) = (&self.state, self.scene.tick_seconds);
         let at_work = state.flippers.iter().any(|f| f.pressed || f.rest != FlipperRest::AtRest)
             || state.plungers.iter().any(|p| !p.home || !p.stays_home())
-            || state.targets.contains(&TargetState::Rising);
+            || state.targets.contains(&TargetState::Rising)
+            || !state.cabinet.is_still()
+            || (self.scene.needs.magnets && state.balls.iter().any(|ball| self.is_in_field(ball)));
         if at_work {
             return 0;
         }

@@ -6,9 +6,10 @@ use thiserror::Error;
 
 use super::frame::encode;
 use super::message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome};
-use crate::game::{Action, GameEvent, GameEventKind, GameState, Phase};
+use crate::game::{Action, GameEvent, GameEventKind, GameState, Nudge, Phase};
 use crate::math::Digest;
 use crate::physics::ball::{Ball, Flight, Instant, Slide, Support};
+use crate::physics::cabinet::CabinetState;
 use crate::physics::flipper::{FlipperRest, FlipperState};
 use crate::physics::hinge::HingeState;
 use crate::physics::needs::Needs;
@@ -120,6 +121,9 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         Action::Start,
         Action::Flipper { right: true, pressed: false },
         Action::Pull(300),
+        Action::Nudge(Nudge::FromLeft),
+        Action::Nudge(Nudge::FromRight),
+        Action::Nudge(Nudge::Forward),
         Action::Release,
     ];
     let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
@@ -189,6 +193,8 @@ pub(super) fn sample_snapshot() -> Snapshot {
         flippers: rests.map(|rest| FlipperState { rest, ..FlipperState::default() }).to_vec(),
         plungers: vec![PlungerState { hand: Some(0.5), ..PlungerState::default() }],
         targets: vec![TargetState::Up, TargetState::Down, TargetState::Rising],
+        magnets: vec![true, false],
+        cabinet: CabinetState { push: glam::DVec2::new(0.5, 0.25), ..CabinetState::default() },
         hinges: vec![HingeState { start: Instant { tick: 9, offset: 0.25 }, angle: -0.5, speed: 20.0 }],
     };
     let kinds = [
@@ -211,6 +217,9 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::Lost { seat: 0 },
         GameEventKind::Rescued,
         GameEventKind::Over,
+        GameEventKind::Nudged { nudge: Nudge::Forward },
+        GameEventKind::Warned { seat: 1 },
+        GameEventKind::Tilted { seat: 1 },
     ];
     let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, quiet: 5, extra: 6 };
     let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();

@@ -145,6 +145,11 @@ fn perform(
                     world.kick(place as u16);
                 }
             }
+            Command::Attract(set) | Command::Release(set) => {
+                for place in (0..world.scene().magnets.len()).filter(|place| set >> place & 1 == 1) {
+                    world.switch(place as u16, matches!(command, Command::Attract(_)));
+                }
+            }
             Command::Serve => show(Effect::Serve),
             Command::Message(place) => show(Effect::Message(*place)),
         }

@@ -34,6 +34,7 @@ const MOST_CHARACTERS: usize = 40;
 pub(super) enum Spot<'a> {
     Table,
     Ball,
+    Cabinet,
     Rules,
     /// By its place among the rules.
     Rule(usize),
@@ -147,6 +148,7 @@ impl<'a> Context<'a> {
         let spot_way: &[Step<'_>] = match spot {
             Spot::Table => &[],
             Spot::Ball => &[Step::Field("ball")],
+            Spot::Cabinet => &[Step::Field("cabinet")],
             Spot::Rules => &[Step::Field("rules")],
             Spot::Rule(place) => &[Step::Field("rules"), Step::Field("on"), Step::Item(place)],
             Spot::Material(name) => &[Step::Field("materials"), Step::Key(name)],
@@ -158,6 +160,7 @@ impl<'a> Context<'a> {
         let element = match spot {
             Spot::Table => None,
             Spot::Ball => Some("ball".to_owned()),
+            Spot::Cabinet => Some("cabinet".to_owned()),
             Spot::Rules => Some("rules".to_owned()),
             Spot::Rule(place) => Some(format!("rule {}", place + 1)),
             Spot::StartBall(place) => Some(format!("ball {}", place + 1)),
@@ -274,6 +277,12 @@ impl<'a> Context<'a> {
         for pull in [file.gravity.0, file.gravity.1] {
             self.in_range(Spot::Table, "gravity", pull, -1e4, 1e4, "(0.0, -0.793) m/s^2")?;
         }
+        for floor in &file.floors {
+            for pull in [floor.0, floor.1] {
+                self.in_range(Spot::Table, "floors", pull, -1e4, 1e4, "[(0.0, -2.5)] m/s^2")?;
+            }
+        }
+        self.cabinet()?;
         self.in_range(Spot::Table, "rest_speed", file.rest_speed, 1e-6, 1.0, "0.02 m/s")?;
         let narrow = if file.size.0 < file.size.1 { file.size.0 } else { file.size.1 };
         self.in_range(Spot::Ball, "radius", file.ball.radius, 1e-5, 0.5 * narrow, "0.0135 m")?;
@@ -284,6 +293,20 @@ impl<'a> Context<'a> {
             return Err(self.error(Spot::Ball, Some("start"), problem));
         }
         Ok(())
+    }
+
+    fn cabinet(&self) -> Result<(), TableError> {
+        let Some(cabinet) = self.file.cabinet else { return Ok(()) };
+        let check = |field, value, low, high, example| self.in_range(Spot::Cabinet, field, value, low, high, example);
+        check("nudge", cabinet.nudge, 0.0, 1.0, "0.06 m/s")?;
+        for (frequency, damping) in [(cabinet.frequency.0, cabinet.damping.0), (cabinet.frequency.1, cabinet.damping.1)]
+        {
+            check("frequency", frequency, 0.1, 100.0, "(9.3, 5.8) Hz")?;
+            check("damping", damping, 1e-3, 0.99, "(0.052, 0.055)")?;
+        }
+        check("bob_length", cabinet.bob_length, 1e-3, 10.0, "0.1 m")?;
+        check("bob_damping", cabinet.bob_damping, 1e-3, 0.99, "0.05")?;
+        check("tilt", cabinet.tilt, 0.01, 45.0, "1 degree")
     }
 
     fn materials(&self) -> Result<(), TableError> {
@@ -321,6 +344,7 @@ impl<'a> Context<'a> {
             ("Plunger", count(|element| matches!(element, ElementFile::Plunger(_)))),
             ("Spinner or Gate", count(|element| matches!(element, ElementFile::Spinner(_) | ElementFile::Gate(_)))),
             ("Saucer", count(|element| matches!(element, ElementFile::Saucer(_)))),
+            ("Magnet", count(|element| matches!(element, ElementFile::Magnet(_)))),
         ];
         for (kind, found) in kinds {
             if found > MOST_PARTS {

@@ -42,6 +42,12 @@ pub struct TableFile {
     pub pixel: f64,
     /// Acceleration of a ball that rolls on the playfield, m/s^2.
     pub gravity: Point,
+    /// The same on the floors above the playfield, from floor 1 on: a ramp is steeper. Left out: as on the playfield.
+    #[serde(default)]
+    pub floors: Vec<Point>,
+    /// How the table moves when it is nudged. Left out: not at all.
+    #[serde(default)]
+    pub cabinet: Option<CabinetFile>,
     /// Normal speed after an impact below which the ball stays in contact, m/s.
     pub rest_speed: f64,
     /// The ball, and where one is served.
@@ -80,6 +86,40 @@ pub struct BallFile {
     pub mass: f64,
     /// Where a ball is served, at rest.
     pub start: Point,
+}
+
+/// A cabinet on its legs, and the plumb bob in it. The defaults are those of a real machine.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CabinetFile {
+    /// Speed that a nudge gives the table, m/s.
+    pub nudge: f64,
+    /// At which the table swings along x and along y, Hz.
+    pub frequency: Point,
+    /// Shares of critical damping of that.
+    pub damping: Point,
+    /// Length of the plumb bob, m.
+    pub bob_length: f64,
+    /// Share of critical damping of its swing.
+    pub bob_damping: f64,
+    /// Angle at which it touches its ring, degrees.
+    pub tilt: f64,
+    /// How often it may touch during one ball before the game tilts.
+    pub warnings: u8,
+}
+
+impl Default for CabinetFile {
+    fn default() -> Self {
+        Self {
+            nudge: 0.06,
+            frequency: (9.3, 5.8),
+            damping: (0.052, 0.055),
+            bob_length: 0.1,
+            bob_damping: 0.05,
+            tilt: 1.0,
+            warnings: 2,
+        }
+    }
 }
 
 /// A surface.
@@ -136,6 +176,10 @@ pub enum ElementFile {
     Ring(PostFile),
     /// A line at which a ball drops, or climbs, to another floor.
     Hole(HoleFile),
+    /// A line between two floors: the edge of a ramp, which a ball crosses either way.
+    Edge(EdgeFile),
+    /// A coil under the playfield that pulls balls towards it.
+    Magnet(MagnetFile),
     /// A wall that a ball passes from one side only, untouched.
     OneWay(OneWayFile),
     /// A round kicker.
@@ -194,6 +238,45 @@ pub struct HoleFile {
     pub floor: u8,
     /// The floor that it leads to.
     pub leads_to: u8,
+}
+
+/// See [`ElementFile::Edge`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EdgeFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// The two floors that meet there.
+    pub floors: (u8, u8),
+}
+
+/// See [`ElementFile::Magnet`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MagnetFile {
+    /// Unique in the table.
+    pub name: String,
+    /// Centre.
+    pub center: Point,
+    /// How far its field reaches, m.
+    pub radius: f64,
+    /// Radius of its core, m.
+    pub core: f64,
+    /// Pull at the rim of the core, m/s^2.
+    pub strength: f64,
+    /// Rate at which the core brakes a ball, 1/s.
+    #[serde(default)]
+    pub drag: f64,
+    /// Whether it is on when nobody has switched it.
+    #[serde(default)]
+    pub on: bool,
+    /// The floor that it acts on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
 }
 
 /// See [`ElementFile::Arc`].
@@ -537,6 +620,10 @@ pub enum ActionFile {
     Raise(String),
     /// A saucer, or a group of them, throws out the ball that it holds.
     Kick(String),
+    /// A magnet, or a group of them, on.
+    Attract(String),
+    /// A magnet, or a group of them, off.
+    Release(String),
     /// Another ball is put into play where balls are served, as soon as no ball is there.
     Serve,
     /// A line on the display.
@@ -551,6 +638,8 @@ impl ElementFile {
             Self::Arc(e) => &e.name,
             Self::Post(e) | Self::Ring(e) => &e.name,
             Self::Hole(e) => &e.name,
+            Self::Edge(e) => &e.name,
+            Self::Magnet(e) => &e.name,
             Self::OneWay(e) => &e.name,
             Self::Bumper(e) => &e.name,
             Self::Slingshot(e) => &e.name,

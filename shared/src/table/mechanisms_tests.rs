@@ -106,7 +106,7 @@ fn rules_that_speak_of_the_wrong_kind_are_refused() {
         ("Hold(\"lock\")", "Hold(\"gate\")", "a Saucer would be right"),
         ("AllHeld(\"locks\")", "AllHeld(\"target\")", "a Saucer would be right"),
         ("Kick(\"locks\")", "Kick(\"gate\")", "a Saucer would be right"),
-        ("Pass(\"gate\")", "Pass(\"target\")", "a Rollover, Gate or Spinner would be right"),
+        ("Pass(\"gate\")", "Pass(\"target\")", "a Rollover, Gate, Spinner or Hole would be right"),
         ("Hit(\"target\")", "Hit(\"saucer\")", "something that a ball can hit"),
     ];
     for (from, to, says) in cases {

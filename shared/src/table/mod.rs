@@ -97,6 +97,7 @@ impl Table {
                 return Err(format!("{tick_hz} ticks a second are not within 1 to 1000000; 1000 would be right"));
             }
             scene.tick_seconds = 1.0 / f64::from(tick_hz);
+            scene.cabinet = self.file.cabinet.map(|cabinet| shapes::cabinet_spec(&cabinet, scene.tick_seconds));
         }
         if *scene != *self.scene {
             table.digest = digest_of(&(self.digest, scene.motion, scene.tick_seconds));

@@ -68,6 +68,10 @@ pub enum Command {
     Raise(u64),
     /// Saucers throw out what they hold, one bit a saucer.
     Kick(u64),
+    /// Magnets on, one bit a magnet.
+    Attract(u64),
+    /// Magnets off.
+    Release(u64),
     /// Another ball.
     Serve,
     /// A line on the display, by its place in [`RuleBook::messages`].
@@ -90,6 +94,7 @@ enum Kind {
     Target,
     Spinner,
     Saucer,
+    Magnet,
 }
 
 impl Kind {
@@ -111,22 +116,24 @@ impl Kind {
                         | E::DropTarget(_)
                 )
             }
-            Self::Passable => matches!(element, E::Rollover(_) | E::Gate(_) | E::Spinner(_)),
+            Self::Passable => matches!(element, E::Rollover(_) | E::Gate(_) | E::Spinner(_) | E::Hole(_)),
             Self::Light => matches!(element, E::Light(_)),
             Self::Target => matches!(element, E::DropTarget(_)),
             Self::Spinner => matches!(element, E::Spinner(_)),
             Self::Saucer => matches!(element, E::Saucer(_)),
+            Self::Magnet => matches!(element, E::Magnet(_)),
         }
     }
 
     fn expected(self) -> &'static str {
         match self {
             Self::Hittable => "something that a ball can hit",
-            Self::Passable => "a Rollover, Gate or Spinner",
+            Self::Passable => "a Rollover, Gate, Spinner or Hole",
             Self::Light => "a Light",
             Self::Target => "a DropTarget",
             Self::Spinner => "a Spinner",
             Self::Saucer => "a Saucer",
+            Self::Magnet => "a Magnet",
         }
     }
 }
@@ -187,6 +194,8 @@ fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String
         ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
         ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
         ActionFile::Kick(name) => Command::Kick(bits(context, name, Kind::Saucer)?),
+        ActionFile::Attract(name) => Command::Attract(bits(context, name, Kind::Magnet)?),
+        ActionFile::Release(name) => Command::Release(bits(context, name, Kind::Magnet)?),
         ActionFile::Serve => Command::Serve,
         ActionFile::Message(text) => {
             if !is_printable(text) {

@@ -11,8 +11,8 @@ use super::accuracy::Accuracy;
 use super::check::{Context, MOST_COORDINATE, Spot, digest, read, vector};
 use super::error::TableError;
 use super::format::{
-    BallFile, ElementFile, HoleFile, MaterialFile, Point, PostFile, RulesFile, TableFile, WallFile, default_pixel,
-    default_tick_hz,
+    BallFile, EdgeFile, ElementFile, HoleFile, MaterialFile, Point, PostFile, RulesFile, TableFile, WallFile,
+    default_pixel, default_tick_hz,
 };
 use super::locate::{Step, first_word, line_of};
 use super::rulebook::RuleBook;
@@ -32,6 +32,9 @@ pub struct SceneFile {
     pub name: String,
     /// Acceleration of every ball, m/s^2.
     pub gravity: Point,
+    /// The same on the floors from 1 on. Left out: as on floor 0.
+    #[serde(default)]
+    pub floors: Vec<Point>,
     /// How the next impact of a ball is found.
     #[serde(default)]
     pub motion: Motion,
@@ -123,6 +126,18 @@ pub enum SceneElement {
         /// 0 is the floor that balls begin on.
         #[serde(default)]
         floor: u8,
+    },
+    /// A line between two floors: the edge of a ramp.
+    Edge {
+        /// Unique in the scene.
+        #[serde(default)]
+        name: String,
+        /// First end, m.
+        from: Point,
+        /// Second end, m.
+        to: Point,
+        /// The two floors that meet there.
+        floors: (u8, u8),
     },
     /// A line at which a ball goes to another floor.
     Hole {
@@ -222,7 +237,9 @@ fn extent(scene: &SceneFile) -> Bounds {
         SceneElement::Post { center, radius, .. } | SceneElement::Ring { center, radius, .. } => {
             vec![disc(*center, *radius)]
         }
-        SceneElement::Hole { from, to, .. } => vec![point(*from), point(*to)],
+        SceneElement::Hole { from, to, .. } | SceneElement::Edge { from, to, .. } => {
+            vec![point(*from), point(*to)]
+        }
     });
     balls.chain(elements).reduce(Bounds::joined).unwrap_or(Bounds { low: DVec2::ZERO, high: DVec2::ONE })
 }
@@ -284,6 +301,12 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
                 };
                 if is_post { ElementFile::Post(round) } else { ElementFile::Ring(round) }
             }
+            SceneElement::Edge { name, from, to, floors } => ElementFile::Edge(EdgeFile {
+                name: named(name, "edge"),
+                from: local(*from),
+                to: local(*to),
+                floors: *floors,
+            }),
             SceneElement::Hole { name, from, to, floor, leads_to } => ElementFile::Hole(HoleFile {
                 name: named(name, "hole"),
                 from: local(*from),
@@ -310,6 +333,8 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
         motion: scene.motion,
         pixel: scene.pixel,
         gravity: scene.gravity,
+        floors: scene.floors.clone(),
+        cabinet: None,
         rest_speed: 0.0,
         ball: BallFile { radius: default_radius(), mass: default_mass(), start: (0.0, 0.0) },
         materials,
@@ -328,6 +353,9 @@ fn check_numbers(context: &Context<'_>, scene: &SceneFile) -> Result<(), TableEr
     context.in_range(table, "pixel", scene.pixel, 1e-15, 1e12, "0.001 m")?;
     for pull in [scene.gravity.0, scene.gravity.1] {
         context.in_range(table, "gravity", pull, -MOST_COORDINATE, MOST_COORDINATE, "(0.0, -0.793) m/s^2")?;
+    }
+    for pull in scene.floors.iter().flat_map(|floor| [floor.0, floor.1]) {
+        context.in_range(table, "floors", pull, -MOST_COORDINATE, MOST_COORDINATE, "[(0.0, -2.5)] m/s^2")?;
     }
     context.in_range(table, "ball_restitution", scene.ball_restitution, 0.0, MOST_RESTITUTION, "1")?;
     if let Some((left, bottom, right, top)) = scene.bounds {

@@ -4,10 +4,14 @@ use glam::DVec2;
 
 use super::check::{Context, Spot, vector};
 use super::error::TableError;
-use super::format::{ArcFile, ElementFile, FlipperFile, Hand, LineFile, PlungerFile, Point, TableFile};
+use super::format::{
+    ArcFile, CabinetFile, ElementFile, FlipperFile, Hand, LineFile, MagnetFile, PlungerFile, Point, TableFile,
+};
 use super::rulebook;
 use crate::math::{direction, radians, tangent};
+use crate::physics::cabinet::{CabinetSpec, Oscillator};
 use crate::physics::flipper::FlipperSpec;
+use crate::physics::magnet::MagnetSpec;
 use crate::physics::needs::Needs;
 use crate::physics::plunger::PlungerSpec;
 use crate::physics::scene::{BallKind, Collider, Material, Presence, Role, Scene, StartBall};
@@ -23,6 +27,7 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
         tick_seconds: 1.0 / f64::from(file.tick_hz),
         pixel: file.pixel,
         gravity: vector(file.gravity),
+        floors: file.floors.iter().copied().map(vector).collect(),
         rest_speed: file.rest_speed,
         kinds: bare.kinds.clone(),
         ball_material: bare.ball_material,
@@ -35,6 +40,8 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
         targets: 0,
         hinges: Vec::new(),
         saucers: Vec::new(),
+        magnets: Vec::new(),
+        cabinet: file.cabinet.map(|cabinet| cabinet_spec(&cabinet, 1.0 / f64::from(file.tick_hz))),
         multiball: rulebook::serves(&file.rules),
         needs: Needs::default(),
         grid: None,
@@ -51,6 +58,23 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
     }
     Ok(builder.scene.built())
 }
+
+/// A cabinet's motion over ticks of `dt` seconds.
+pub(super) fn cabinet_spec(file: &CabinetFile, dt: f64) -> CabinetSpec {
+    let angular = |hertz: f64| hertz * core::f64::consts::TAU;
+    CabinetSpec {
+        speed: file.nudge,
+        legs: [
+            Oscillator::new(angular(file.frequency.0), file.damping.0, dt),
+            Oscillator::new(angular(file.frequency.1), file.damping.1, dt),
+        ],
+        bob: Oscillator::new((STANDARD_GRAVITY / file.bob_length).sqrt(), file.bob_damping, dt),
+        ring: file.bob_length * radians(file.tilt),
+    }
+}
+
+/// What a plumb bob hangs in, m/s^2.
+const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// What a scene says of balls and space that a table says otherwise.
 pub(super) struct Bare {
@@ -112,6 +136,19 @@ impl Builder<'_> {
                 }
                 self.sensor(index, hole.from, hole.to, Role::Hole { to: hole.leads_to })
             }
+            ElementFile::Edge(edge) => {
+                let (below, above) = edge.floors;
+                if below == above {
+                    let problem = format!("both sides are floor {below}; two floors would be right");
+                    return Err(self.context.error(spot, Some("floors"), problem));
+                }
+                for (floor, to) in [(below, above), (above, below)] {
+                    self.floor = floor;
+                    self.sensor(index, edge.from, edge.to, Role::Hole { to })?;
+                }
+                Ok(())
+            }
+            ElementFile::Magnet(magnet) => self.magnet(index, magnet),
             ElementFile::OneWay(wall) => {
                 let material = self.material(spot, &wall.material)?;
                 self.floor = wall.floor;
@@ -292,6 +329,36 @@ impl Builder<'_> {
         let segment = self.segment(Spot::Element(index), from, to)?;
         let none = Material::bouncing(0.0);
         self.push(index, Shape::Segment(segment), none, role, Presence::Always);
+        Ok(())
+    }
+
+    fn magnet(&mut self, element: u16, file: &MagnetFile) -> Result<(), TableError> {
+        let spot = Spot::Element(element);
+        self.length(spot, "core", file.core)?;
+        self.context.in_range(
+            spot,
+            "radius",
+            file.radius,
+            file.core,
+            1e3,
+            "a length of at least `core`, such as 0.08",
+        )?;
+        self.context.in_range(spot, "strength", file.strength, -1e3, 1e3, "15 m/s^2")?;
+        self.context.in_range(spot, "drag", file.drag, 0.0, 1e3, "8 1/s")?;
+        let place = self.scene.magnets.len() as u16;
+        self.floor = file.floor;
+        let none = Material::bouncing(0.0);
+        self.disc(element, file.center, file.radius, Side::Outside, none, Role::Field { index: place })?;
+        self.scene.magnets.push(MagnetSpec {
+            element,
+            center: vector(file.center),
+            reach: file.radius,
+            core: file.core,
+            strength: file.strength,
+            drag: file.drag,
+            on: file.on,
+            floor: file.floor,
+        });
         Ok(())
     }
 

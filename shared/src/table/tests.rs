@@ -218,7 +218,7 @@ const CASES: &[Case] = &[
         "Pass(\"drop\")",
         "Pass",
         ("rule 4", "event"),
-        "a Rollover, Gate or Spinner would be right",
+        "a Rollover, Gate, Spinner or Hole would be right",
     ),
     case(
         "AllLit(\"light\")",

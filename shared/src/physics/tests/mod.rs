@@ -2,6 +2,7 @@
 
 mod balls;
 mod elements;
+mod fields;
 mod flippers;
 mod hinges;
 mod needs;

@@ -75,7 +75,8 @@ fn what_is_not_needed_is_not_in_a_state() {
             "contact" => 16,
             "spin" => 8,
             "kinds" | "floors" => 1,
-            "flippers" | "plungers" | "targets" | "hinges" => 8,
+            "flippers" | "plungers" | "targets" | "hinges" | "magnets" => 8,
+            "nudge" => 96,
             _ => 0,
         };
         assert_eq!(of(&forced), bare + more, "{name}");

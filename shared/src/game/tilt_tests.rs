@@ -1,0 +1,81 @@
+//! Nudges, warnings and the tilt.
+
+use std::sync::Arc;
+
+use super::*;
+use crate::table::SHIPPED;
+
+/// Classic with a cabinet that can be nudged, with a ball in play on its plunger.
+fn started() -> Game {
+    let source = SHIPPED[0].1;
+    let source = if source.contains("cabinet:") {
+        source.to_owned()
+    } else {
+        source.replacen("gravity:", "cabinet: (), gravity:", 1)
+    };
+    let mut game = Game::new(Arc::new(Table::parse("classic.ron", &source).unwrap_or_else(|error| panic!("{error}"))));
+    act(&mut game, &[Action::Sit, Action::Start]);
+    for _ in 0..1000 {
+        game.step(&[]);
+    }
+    game
+}
+
+fn act(game: &mut Game, actions: &[Action]) -> Vec<GameEventKind> {
+    let tick = game.tick();
+    let inputs: Vec<_> = actions.iter().map(|&action| Input { tick, seat: 0, action }).collect();
+    game.step(&inputs).iter().map(|event| event.kind).collect()
+}
+
+fn wait(game: &mut Game, ticks: u32) -> Vec<GameEventKind> {
+    (0..ticks).flat_map(|_| game.step(&[]).iter().map(|event| event.kind).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn one_nudge_is_no_tilt_and_a_fit_of_them_is() {
+    let mut game = started();
+    let told = act(&mut game, &[Action::Nudge(Nudge::FromLeft)]);
+    assert!(told.contains(&GameEventKind::Nudged { nudge: Nudge::FromLeft }));
+    assert_eq!(wait(&mut game, 3000).iter().filter(|kind| matches!(kind, GameEventKind::Warned { .. })).count(), 0);
+    let mut told = Vec::new();
+    for _ in 0..60 {
+        told.extend(act(&mut game, &[Action::Nudge(Nudge::Forward)]));
+        told.extend(wait(&mut game, 170));
+    }
+    let warnings = told.iter().filter(|kind| matches!(kind, GameEventKind::Warned { .. })).count();
+    assert_eq!(warnings, 2, "two warnings, and no third");
+    assert!(told.contains(&GameEventKind::Tilted { seat: 0 }));
+    assert!(game.tilt().tilted);
+}
+
+#[test]
+fn a_tilted_game_hears_no_button_and_counts_nothing_until_the_next_ball() {
+    let mut game = started();
+    while !game.tilt().tilted {
+        act(&mut game, &[Action::Nudge(Nudge::Forward)]);
+        wait(&mut game, 170);
+    }
+    let points = game.seats()[0].score;
+    assert_eq!((points.bonus, points.multiplier), (0, 1));
+    act(&mut game, &[Action::Flipper { right: false, pressed: true }]);
+    assert!(!game.world().state().flippers[0].pressed);
+    wait(&mut game, 20_000);
+    assert_eq!(game.seats()[0].score.points, points.points);
+    // A turn that is over is another ball's, or another player's: everything works again.
+    let seat = act(&mut game, &[Action::Stand, Action::Sit, Action::Start]);
+    assert!(seat.contains(&GameEventKind::Started));
+    assert!(!game.tilt().tilted);
+}
+
+#[test]
+fn a_replay_of_nudges_arrives_at_the_same_digest() {
+    let play = || {
+        let mut game = started();
+        for nudge in [Nudge::FromLeft, Nudge::FromRight, Nudge::Forward] {
+            act(&mut game, &[Action::Nudge(nudge)]);
+            wait(&mut game, 333);
+        }
+        game.digest()
+    };
+    assert_eq!(play(), play());
+}
