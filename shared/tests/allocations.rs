@@ -125,3 +125,40 @@ fn games_on_classic_allocate_nothing() {
     }
     assert!(lost >= 3 && felled >= 1 && restored >= 1, "{lost} balls lost, {felled} targets felled, {restored}");
 }
+
+/// A spinner that spins, a gate, a saucer that catches and throws out, and rules that serve another ball each time.
+#[test]
+fn mechanisms_and_multiball_allocate_nothing() {
+    let text = r#"(format: 1, physics: 3, name: "Locks", size: (0.4, 0.8), gravity: (0.0, -0.793), rest_speed: 0.02,
+        ball: (radius: 0.0135, mass: 0.08, start: (0.2, 0.7)),
+        materials: { "wood": (restitution: 0.3, friction: 0.3) },
+        elements: [
+            Wall(name: "frame", material: "wood", points: [(0.0, 0.0), (0.0, 0.8), (0.4, 0.8), (0.4, 0.0), (0.0, 0.0)]),
+            Spinner(name: "spinner", from: (0.1, 0.6), to: (0.3, 0.6), lever: 0.02, inertia: 2e-6, friction: 30.0,
+                restitution: 0.3, lift: 1e-5),
+            Saucer(name: "lock", center: (0.2, 0.4), radius: 0.012, capture: 2.0, kick: (0.3, 1.2), hold: 0.2),
+            Gate(name: "gate", from: (0.3, 0.3), to: (0.1, 0.3), lever: 0.02, inertia: 2e-6, restitution: 0.3, lift: 1e-5,
+                one_way: false),
+            Drain(name: "drain", from: (0.0, 0.05), to: (0.4, 0.05)),
+        ],
+        rules: (balls: 100, max_multiplier: 1, on: [
+            (event: Hold("lock"), run: [Score(1), Serve]),
+            (event: Spin("spinner"), run: [Score(1)]),
+        ]))"#;
+    let table = Table::parse("locks.ron", text).unwrap_or_else(|error| panic!("{error}"));
+    let mut game = Game::new(Arc::new(table));
+    let (mut spun, mut ejected, mut most) = (0, 0, 0);
+    for tick in 0..60_000 {
+        let action = if tick == 0 { Action::Sit } else { Action::Start };
+        let input = [Input { tick, seat: 0, action }];
+        let count = measure(|| {
+            game.step(&input);
+        })
+        .count_total;
+        assert_eq!(count, 0, "tick {tick}: {:?}", game.world().events());
+        spun += game.world().events().iter().filter(|event| matches!(event.kind, EventKind::Spun { .. })).count();
+        ejected += game.world().events().iter().filter(|event| matches!(event.kind, EventKind::Ejected { .. })).count();
+        most = most.max(game.world().state().balls.len());
+    }
+    assert!(spun > 10 && ejected > 10 && most > 2, "{spun} half turns, {ejected} thrown out, {most} balls");
+}

@@ -15,7 +15,7 @@ use super::problem::Problem;
 const TICKS: u64 = 200_000;
 
 /// For each need, nanoseconds a tick without and with it. Whoever has it, loses it where that leaves a scene that can be run:
-/// flippers, plungers, targets, floors and sensors are parts of the scene, and without them it is another.
+/// flippers, plungers, targets, floors, sensors, plates and saucers are parts of the scene, and without them it is another.
 pub fn text(problem: &Problem, rounds: usize, say: &mut dyn FnMut(&str)) -> String {
     let own = problem.cases[0].scene.needs;
     let mut variants = vec![("as it is".to_owned(), own)];
@@ -43,7 +43,10 @@ pub fn text(problem: &Problem, rounds: usize, say: &mut dyn FnMut(&str)) -> Stri
     let _ = writeln!(out, "| need | has it | ns a tick without | ns a tick with | difference |\n|---|---|---|---|---|");
     for ((place, (need, _)), costs) in variants.iter().enumerate().zip(costs).skip(1) {
         let has = own.flags()[place - 1];
-        let is_part = matches!(need.as_str(), "flippers" | "plungers" | "targets" | "floors" | "sensors" | "kinds");
+        let is_part = matches!(
+            need.as_str(),
+            "flippers" | "plungers" | "targets" | "floors" | "sensors" | "kinds" | "hinges" | "saucers"
+        );
         if has && (is_part || need == "ball-ball") {
             let _ = writeln!(out, "| {need} | yes | without it, it is another scene | {:.2} | |", median(base.clone()));
             continue;

@@ -102,3 +102,29 @@ Worse than expected:
     assert_eq!(report.to_string(), expected);
     assert!(!report.is_as_expected());
 }
+
+/// What the case of mechanisms is there for happens in it.
+#[test]
+fn the_case_of_mechanisms_has_all_that_they_do() {
+    use crate::physics::EventKind as E;
+    for motion in crate::physics::motion::Motion::ALL {
+        let cases = super::cases::all(motion);
+        let Some(case) = cases.iter().find(|case| case.name == "mechanisms") else { panic!("it is gone") };
+        let (mut run, mut counts) = (case.run(), [0; 5]);
+        for _ in 0..case.ticks {
+            run.step();
+            for event in run.world.events() {
+                match event.kind {
+                    E::Spun { .. } => counts[0] += 1,
+                    E::Passed { .. } => counts[1] += 1,
+                    E::Held { .. } => counts[2] += 1,
+                    E::Ejected { .. } => counts[3] += 1,
+                    E::Struck { .. } => counts[4] += 1,
+                    _ => {}
+                }
+            }
+        }
+        println!("{motion}: {counts:?}");
+        assert!(counts.iter().all(|&count| count > 0), "{motion}: {counts:?}");
+    }
+}

@@ -255,6 +255,9 @@ impl World {
     ) {
         self.forget_nexts(Instant { tick: self.state.tick, offset });
         for ball in 0..self.state.balls.len() {
+            if self.state.balls[ball].saucer().is_some() {
+                continue;
+            }
             let is_own = |i: u16| own.contains(&self.scene.colliders[usize::from(i)].presence);
             let lies_on = match self.state.balls[ball].support {
                 Support::Line(i) | Support::Arc(i) => is_own(i),

@@ -5,6 +5,7 @@ mod accuracy;
 mod check;
 mod error;
 pub mod format;
+mod format_mechanisms;
 pub(crate) mod locate;
 mod mechanisms;
 #[cfg(test)]

@@ -71,7 +71,7 @@ pub enum Ending {
     Time,
     /// After as many impacts as asked for.
     Bounces,
-    /// A ball came to rest on something, or rolls: the equations change.
+    /// A ball came to rest on something, rolls, or reached a plate or a saucer: the equations change.
     Rest,
     /// No ball is left.
     Gone,
@@ -322,7 +322,9 @@ impl<'a, R: Real> Solver<'a, R> {
                 (velocity, body.spin)
             }
             Role::Sensor => (velocity, body.spin),
-            Role::Solid | Role::Kicker { .. } | Role::Target { .. } => {
+            // Plates and saucers are none of its equations.
+            Role::Hinge { .. } | Role::Saucer { .. } => return true,
+            Role::Solid | Role::Kicker { .. } | Role::Target { .. } | Role::Standing { .. } => {
                 let normal = search::normal(&collider.shape, position);
                 let speed = (-velocity.dot(normal)).to_f64();
                 let after = bounce(velocity, body.spin, body.radius, normal, collider);

@@ -121,6 +121,7 @@ impl<R: Real> Search<'_, R> {
         match &collider.shape {
             Shape::Segment(segment) if collider.role.is_passed() => self.passes(segment, touching, until),
             Shape::Segment(segment) => self.meets_segment(segment, touching, until),
+            // A saucer ends the solution, if only by a ball's rim.
             Shape::Arc(arc) if !matches!(collider.role, Role::Drain | Role::Sensor | Role::Hole { .. }) => {
                 self.meets_arc(arc, touching, until)
             }

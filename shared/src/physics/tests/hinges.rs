@@ -219,6 +219,30 @@ fn a_ball_that_rolls_along_a_wall_goes_on_along_it() {
     }
 }
 
+/// Broke nothing yet: a ball that follows an arch is put back on it at each tick, and must not jump over a line by that.
+#[test]
+fn a_ball_that_runs_round_an_arch_passes_a_plate_in_its_way_once() {
+    let arch = "Arc(name: \"arch\", material: \"wood\", center: (0.5, 0.5), radius: 0.25, from: -90.0, to: 90.0),
+        Wall(name: \"left\", material: \"wood\", points: [(0.25, 0.5), (0.25, 0.0)]),
+        Wall(name: \"right\", material: \"wood\", points: [(0.75, 0.5), (0.75, 0.0)]),";
+    for motion in Motion::ALL {
+        for skew in [0.0, 0.01] {
+            let plate = format!(
+                "Gate(name: \"p\", from: (0.5, 0.69), to: ({:?}, 0.76), lever: 0.02, inertia: 1e-6, restitution: 0.3, lift: 1e-5, one_way: true),",
+                0.5 + skew
+            );
+            for k in 0..60 {
+                let mut world = with_motion(DVec2::new(0.0, -0.2), &(arch.to_owned() + &plate), motion);
+                let speed = 1.3 + 0.037 * f64::from(k);
+                launch(&mut world, DVec2::new(0.25 + 0.0135, 0.3), DVec2::new(0.0, speed));
+                let events = run(&mut world, (0.85 / speed * 1000.0) as u32);
+                let passed = events.iter().filter(|event| matches!(event, EventKind::Passed { element: 3 })).count();
+                assert_eq!(passed, 1, "{motion}, {skew}, {speed}: {events:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_copy_restored_while_a_spinner_spins_goes_on_bit_for_bit() {
     for motion in Motion::ALL {

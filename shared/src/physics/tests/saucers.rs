@@ -65,6 +65,25 @@ fn one_without_a_time_waits_for_a_kick() {
     }
 }
 
+/// A flipper that starts begins the flights of the balls near it anew: not that of a ball in a saucer, whose time it tells.
+#[test]
+fn a_flipper_beside_it_does_not_prolong_its_hold() {
+    let flipper = "Flipper(name: \"f\", material: \"flipper rubber\", hand: Left, pivot: (0.42, 0.5), length: 0.0635, base_radius: 0.0111,
+        tip_radius: 0.00635, rest: 120.5, raised: 70.0, inertia: 1.07e-4, torque: 0.58, ramp: 0.01, hold: 0.75, hold_within: 6.0,
+        return_share: 0.041, stop_restitution: 0.2),";
+    for motion in Motion::ALL {
+        let mut world = with_motion(DOWN, &(saucer(", hold: 0.25") + flipper), motion);
+        launch(&mut world, DVec2::new(0.5, 0.53), DVec2::ZERO);
+        let mut times = Vec::new();
+        for tick in 0..900 {
+            world.press(false, tick / 40 % 2 == 0);
+            let of_saucer = |kind: &EventKind| matches!(kind, EventKind::Held { .. } | EventKind::Ejected { .. });
+            times.extend(world.step().iter().filter(|event| of_saucer(&event.kind)).map(|event| event.at.tick));
+        }
+        assert!(times.len() >= 2 && times[1] == times[0] + 250, "{motion}: {times:?}");
+    }
+}
+
 #[test]
 fn a_second_ball_passes_over_and_does_not_meet_the_first() {
     for motion in Motion::ALL {
