@@ -205,7 +205,8 @@ impl World {
         };
         let pushed = push.outcome();
         let speed = (sign * pushed.plate_speed / spec.lever).clamp(-MOST_HINGE_SPEED, MOST_HINGE_SPEED);
-        let angle = if speed == 0.0 { 0.0 } else { angle };
+        // Right before a half turn the angle may be one by a rounding.
+        let angle = if speed == 0.0 { 0.0 } else { angle.clamp(-PI, PI) };
         self.state.hinges[usize::from(index)] = HingeState { start: now, angle, speed };
         let after = velocity + ahead * (pushed.ball_speed - push.ball_speed);
         let place = if pushed.passes { position } else { beside(&segment, position, -sign) };
