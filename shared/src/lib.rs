@@ -1,7 +1,8 @@
 //! The Starball world: everything that must be the same on every machine, bit for bit.
 //!
 //! Modules in the order in which they may use each other, left to right:
-//! `math -> physics -> table -> rules -> game -> protocol`; `golden` plays games to see whether they are the same everywhere.
+//! `math -> physics -> table -> rules -> game -> protocol`; `golden` plays games to see whether they are the same everywhere,
+//! `outline` turns a world of `physics` into lines for pictures.
 //! There is no clock, file, socket or thread in here; callers pass time and bytes. The one entry is [`game::Game::step`].
 
 #![warn(missing_docs)]
@@ -10,6 +11,7 @@ pub mod extremes;
 pub mod game;
 pub mod golden;
 pub mod math;
+pub mod outline;
 pub mod physics;
 pub mod protocol;
 pub mod rules;
