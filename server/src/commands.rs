@@ -2,7 +2,7 @@
 
 use std::fs::File;
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant as Clock;
 
@@ -12,7 +12,8 @@ use shared::game::replay::{Recorder, Replay};
 use shared::physics::motion::Motion;
 use shared::table::{Accuracy, Horizon};
 use starball_server::measure::{self, Plan};
-use starball_server::simulate::{self, Player, Simulation};
+use starball_server::picture::{self, Recent};
+use starball_server::simulate::{self, Player, Simulation, Watchers};
 use starball_server::{load_table, load_text, read_table};
 
 use crate::{Measure, Simulate};
@@ -37,8 +38,15 @@ pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
     }
     let mut trace = arguments.trace.as_deref().map(create).transpose()?;
     let mut recorder = arguments.record.is_some().then(|| Recorder::new(&table, arguments.seed));
-    let writer = trace.as_mut().map(|writer| writer.as_mut() as &mut dyn Write);
-    let (game, told) = match simulate::run(&table, &simulation, writer, recorder.as_mut()) {
+    // What cannot be written is told before anything is played.
+    let mut drawing = arguments.svg.as_deref().map(create).transpose()?;
+    let mut recent = drawing.is_some().then(|| Recent::new(&table, simulation.ticks(&table), arguments.svg_seconds));
+    let watchers = Watchers {
+        trace: trace.as_mut().map(|writer| writer.as_mut() as &mut dyn Write),
+        recorder: recorder.as_mut(),
+        recent: recent.as_mut(),
+    };
+    let (game, told) = match simulate::run(&table, &simulation, watchers) {
         // Whoever reads has enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => return Ok(()),
         outcome => outcome.map_err(|error| format!("cannot write the trace: {error}"))?,
@@ -47,7 +55,13 @@ pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
         let replay = recorder.finish(&game).map_err(|error| error.to_string())?;
         std::fs::write(path, replay.to_text()).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
     }
-    if arguments.trace.as_deref() == Some(Path::new("-")) { Ok(()) } else { print(&told.to_string()) }
+    if let (Some(drawing), Some(recent), Some(path)) = (&mut drawing, recent, &arguments.svg) {
+        let text = picture::svg(&table, game.world(), &recent.finish(game.world()), arguments.svg_seconds);
+        let written = drawing.write_all(text.as_bytes()).and_then(|()| drawing.flush());
+        written.map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+    }
+    let takes_output = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
+    if takes_output(&arguments.trace) || takes_output(&arguments.svg) { Ok(()) } else { print(&told.to_string()) }
 }
 
 /// `extremes`.

@@ -11,6 +11,7 @@ mod listener;
 mod lobby;
 pub mod measure;
 mod pacing;
+pub mod picture;
 mod room;
 mod session;
 pub mod simulate;

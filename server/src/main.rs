@@ -123,8 +123,14 @@ struct Simulate {
     /// Writes a replay of what was played.
     #[arg(long, value_name = "FILE")]
     record: Option<PathBuf>,
+    /// Draws the table as it is at the end, with the last way of each ball and what it meets next; `-` is standard output.
+    #[arg(long, value_name = "FILE")]
+    svg: Option<PathBuf>,
+    /// World time for which the picture shows where balls have been, seconds.
+    #[arg(long, value_name = "SECONDS", default_value_t = 2.0, requires = "svg", value_parser = seconds, allow_negative_numbers = true)]
+    svg_seconds: f64,
     /// Plays so many times and tells what it costs, as medians: one line of JSON.
-    #[arg(long, value_name = "N", conflicts_with_all = ["trace", "record"], value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    #[arg(long, value_name = "N", conflicts_with_all = ["trace", "record", "svg"], value_parser = clap::value_parser!(u32).range(1..=10_000))]
     bench: Option<u32>,
 }
 

@@ -11,6 +11,8 @@ use shared::physics::ball::Instant;
 use shared::physics::{Event, EventKind};
 use shared::table::Table;
 
+use crate::picture::Recent;
+
 /// What is simulated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simulation {
@@ -35,7 +37,7 @@ pub enum Player {
 
 impl Simulation {
     /// Ticks of the whole of it.
-    fn ticks(&self, table: &Table) -> u64 {
+    pub fn ticks(&self, table: &Table) -> u64 {
         // A cast saturates; `seconds` is checked by the command line.
         (self.seconds / table.scene.tick_seconds).round() as u64
     }
@@ -79,24 +81,34 @@ impl<'a> Inputs<'a> {
     }
 }
 
+/// Whoever looks on while a simulation runs.
+#[derive(Default)]
+pub struct Watchers<'a> {
+    /// Gets a line of JSON for every impact, then one with the final state.
+    pub trace: Option<&'a mut dyn Write>,
+    /// Notes every tick.
+    pub recorder: Option<&'a mut Recorder>,
+    /// Notes the last way of each ball.
+    pub recent: Option<&'a mut Recent>,
+}
+
 /// Plays, and tells the outcome as one line of JSON: `score` (points of all games together), `games` begun, `balls`
 /// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`; of a bare
 /// scene `events` (impacts and whatever else happened), `escaped` balls, `ticks` and `digest`. Table, seconds, seed and inputs
 /// decide every bit of it.
 ///
-/// `trace` gets a line of JSON for every impact, then one with the final state; `recorder` notes every tick.
+/// `watchers` get what they are for.
 ///
 /// # Errors
 /// If the trace cannot be written.
-pub fn run(
-    table: &Arc<Table>,
-    simulation: &Simulation,
-    mut trace: Option<&mut dyn Write>,
-    mut recorder: Option<&mut Recorder>,
-) -> io::Result<(Game, Value)> {
+pub fn run(table: &Arc<Table>, simulation: &Simulation, watchers: Watchers<'_>) -> io::Result<(Game, Value)> {
+    let Watchers { mut trace, mut recorder, mut recent } = watchers;
     let mut game = Game::new(Arc::clone(table));
     let mut player = Inputs::new(simulation);
     let ticks = simulation.ticks(table);
+    if let Some(recent) = &mut recent {
+        recent.look(game.world());
+    }
     let (mut score, mut games, mut balls, mut rescued) = (0_u64, 0_u64, 0_u64, 0_u64);
     let (mut happened, mut escaped) = (0_u64, 0_u64);
     let mut inputs = Vec::new();
@@ -122,6 +134,9 @@ pub fn run(
         }
         if let Some(recorder) = &mut recorder {
             recorder.after_step(&game, &inputs);
+        }
+        if let Some(recent) = &mut recent {
+            recent.look(game.world());
         }
     }
     let digest = format!("{:016x}", game.digest());
@@ -264,7 +279,7 @@ mod tests {
     fn the_same_table_time_and_seed_give_the_same_line() {
         let line = |seed| {
             let (table, simulation) = classic(seed);
-            run(&table, &simulation, None, None).expect("nothing is written").1
+            run(&table, &simulation, Watchers::default()).expect("nothing is written").1
         };
         assert_eq!(line(1), line(1));
         assert_ne!(line(1), line(2));
@@ -281,7 +296,8 @@ mod tests {
     fn traced(table: &Arc<Table>, seconds: f64) -> Vec<Value> {
         let mut bytes = Vec::new();
         let simulation = Simulation { seconds, player: Player::Nobody, seed: 0 };
-        run(table, &simulation, Some(&mut bytes), None).expect("a list takes everything");
+        run(table, &simulation, Watchers { trace: Some(&mut bytes), ..Watchers::default() })
+            .expect("a list takes everything");
         let text = String::from_utf8(bytes).expect("JSON is text");
         text.lines().map(|line| serde_json::from_str(line).expect("a line of JSON")).collect()
     }
@@ -338,11 +354,12 @@ mod tests {
     fn a_recorded_game_is_played_again_by_its_inputs() {
         let (table, simulation) = classic(7);
         let mut recorder = Recorder::new(&table, 7);
-        let (game, told) = run(&table, &simulation, None, Some(&mut recorder)).expect("nothing is written");
+        let (game, told) = run(&table, &simulation, Watchers { recorder: Some(&mut recorder), ..Watchers::default() })
+            .expect("nothing is written");
         let log = recorder.finish(&game).expect("it is short");
         let read = Replay::parse("game", &log.to_text()).expect("it was just written");
         assert_eq!(replay(&table, &read), Ok(()));
         let again = Simulation { player: Player::Inputs(read.inputs().to_vec()), ..simulation };
-        assert_eq!(run(&table, &again, None, None).expect("nothing is written").1, told);
+        assert_eq!(run(&table, &again, Watchers::default()).expect("nothing is written").1, told);
     }
 }
