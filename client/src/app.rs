@@ -61,6 +61,7 @@ pub(crate) struct App {
     limiter: Limiter,
     is_full_screen: bool,
     shows_statistics: bool,
+    shows_overlay: bool,
     report: Report,
 }
 
@@ -78,6 +79,7 @@ impl App {
             limiter: Limiter::new(options.fps),
             is_full_screen: false,
             shows_statistics: false,
+            shows_overlay: options.overlay,
             report: Report::default(),
             table: backdrop,
             options,
@@ -212,6 +214,7 @@ impl App {
                     set_fullscreen(self.is_full_screen);
                 }
                 (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
+                (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
             }
         }
         true
@@ -222,7 +225,7 @@ impl App {
         self.view = match &mut self.state {
             State::Live(_, session) => {
                 let words = screens::live(session, now);
-                assemble::view_of(session, words, now)
+                assemble::view_of(session, words, now, self.shows_overlay)
             }
             State::Connecting(_, address) => assemble::still_view(&self.table, screens::connecting(address), now),
             State::Lost { was_live, reason } => {
@@ -232,6 +235,10 @@ impl App {
                 assemble::over(last, &self.table, words, now)
             }
         };
+        if !self.shows_overlay {
+            // Of a game that was lost.
+            self.view.overlay = None;
+        }
         if self.shows_statistics {
             self.view.hud.message = self.statistics();
         }

@@ -30,6 +30,9 @@ pub(crate) struct Arguments {
     /// Frames a second at most; 0: as many as there can be.
     #[arg(long, global = true, default_value_t = 60)]
     fps: u32,
+    /// Shows what the physics sees: shapes, normals, velocities, the flights to come. F4 switches it.
+    #[arg(long, global = true)]
+    overlay: bool,
     /// Prints at the end what was drawn, received and predicted.
     #[arg(long, global = true)]
     stats: bool,
@@ -92,6 +95,8 @@ pub(crate) struct Options {
     pub(crate) screenshot: Option<Screenshot>,
     /// Frames a second, 0: no limit.
     pub(crate) fps: u32,
+    /// Whether the overlay is on from the start.
+    pub(crate) overlay: bool,
     /// Whether to print statistics at the end.
     pub(crate) stats: bool,
 }
@@ -114,7 +119,7 @@ impl Arguments {
         };
         let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
         let name = self.name.unwrap_or_else(user_name);
-        Ok(Options { goal, name, screenshot, fps: self.fps, stats: self.stats })
+        Ok(Options { goal, name, screenshot, fps: self.fps, overlay: self.overlay, stats: self.stats })
     }
 }
 
@@ -185,6 +190,7 @@ mod tests {
         assert!(matches!(options.goal, Goal::Play(address) if address == "localhost:7777"));
         assert_eq!((options.name.as_str(), options.fps), ("Ann", 60));
         assert!(matches!(check(&["watch", "--connect", "[::1]:1"]).unwrap().goal, Goal::Watch(_)));
+        assert!(check(&["watch", "--connect", "[::1]:1", "--overlay"]).unwrap().overlay && !options.overlay);
         assert!(check(&["play"]).unwrap_err().contains("--connect"));
         assert!(check(&["--name", " Ann"]).unwrap_err().contains("blanks"));
         assert!(check(&["--table", "x", "play", "--connect", "localhost:1"]).unwrap_err().contains("of your own"));

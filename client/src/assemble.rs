@@ -5,12 +5,13 @@ use shared::physics::TargetState;
 use shared::table::Table;
 
 use crate::moment::Moment;
+use crate::overlay::overlay_of;
 use crate::screens::Words;
 use crate::session::Session;
 use crate::view::{BallView, ElementView, Hud, SeatView, View};
 
-/// The view of a game.
-pub(crate) fn view_of(session: &mut Session, words: Words, now: f64) -> View {
+/// The view of a game; `with_overlay`: and of what its physics sees.
+pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overlay: bool) -> View {
     let popups = session.effects_mut().popups(now);
     let Some(moment) = session.moment() else { return still_view(session.table(), words, now) };
     let table = session.table();
@@ -22,6 +23,7 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64) -> View {
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();
     view.popups = popups;
     fill_hud(&mut view.hud, session, &moment);
+    view.overlay = with_overlay.then(|| overlay_of(&moment));
 
     let targets = table.targets.iter().zip(&moment.game.world().state().targets);
     for (&element, target) in targets {

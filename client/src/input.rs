@@ -17,6 +17,8 @@ pub(crate) enum Wish {
     FullScreen,
     /// F3.
     Statistics,
+    /// F4.
+    Overlay,
 }
 
 /// Where the window's events come in.
@@ -57,6 +59,7 @@ impl<W: FnMut(Wish)> EventHandler for Sorter<'_, W> {
             KeyCode::Escape => (self.wish)(Wish::Back),
             KeyCode::F11 => (self.wish)(Wish::FullScreen),
             KeyCode::F3 => (self.wish)(Wish::Statistics),
+            KeyCode::F4 => (self.wish)(Wish::Overlay),
             _ => self.controls.key_down(key),
         }
     }
@@ -84,9 +87,10 @@ mod tests {
         sorter.key_down_event(KeyCode::Enter, none, false);
         sorter.key_down_event(KeyCode::Enter, none, true);
         sorter.key_down_event(KeyCode::A, none, false);
+        sorter.key_down_event(KeyCode::F4, none, false);
         sorter.key_down_event(KeyCode::Escape, none, false);
         sorter.window_minimized_event();
-        assert_eq!(wishes, [Wish::Go, Wish::Back]);
+        assert_eq!(wishes, [Wish::Go, Wish::Overlay, Wish::Back]);
         // Pressed and released before the turn began: nothing is held.
         controls.frame(0.0, 0, true, |tick, action| panic!("{action:?} at {tick}"));
     }

@@ -1,8 +1,8 @@
 //! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
 //!
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's game), `timing`, `snapshots`
-//! and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects` and `assemble` (what
-//! goes into a `view`), `render` (draws it).
+//! and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects`, `overlay` and
+//! `assemble` (what goes into a `view`), `render` (draws it).
 
 mod app;
 mod arguments;
@@ -15,6 +15,7 @@ mod input;
 mod limiter;
 mod moment;
 mod net;
+mod overlay;
 mod prediction;
 mod render;
 mod report;

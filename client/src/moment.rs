@@ -16,6 +16,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) flippers: Vec<f64>,
     /// For each plunger, how far it is pulled, metres.
     pub(crate) plungers: Vec<f64>,
+    /// When.
+    pub(crate) at: Instant,
     /// Everything that does not move: turn, points, lights, targets.
     pub(crate) game: &'a Game,
 }
@@ -30,6 +32,7 @@ impl<'a> Moment<'a> {
             balls: state.balls.iter().map(|ball| ball.at(now, dt)).collect(),
             flippers: state.flippers.iter().map(|flipper| flipper.swing).collect(),
             plungers: state.plungers.iter().map(|plunger| plunger.pull).collect(),
+            at: now,
             game,
         }
     }

@@ -136,9 +136,11 @@ impl Standing {
 
     fn keys(&self) -> Vec<(String, String)> {
         match self {
-            Self::Attract => keys(&[("ENTER", "PLAY"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")]),
-            Self::Watching { can_join: true } => keys(&[("ENTER", "JOIN THE GAME"), ("ESC", "QUIT")]),
-            Self::Watching { can_join: false } => keys(&[("ENTER", "GET IN LINE"), ("ESC", "QUIT")]),
+            Self::Attract => keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")]),
+            Self::Watching { can_join: true } => {
+                keys(&[("ENTER", "JOIN THE GAME"), ("F4", "PHYSICS"), ("ESC", "QUIT")])
+            }
+            Self::Watching { can_join: false } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
             Self::InLine(_) => keys(&[("ESC", "LEAVE THE LINE")]),
             Self::Over { .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
             Self::Plunger | Self::Turn => {

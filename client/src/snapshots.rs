@@ -92,8 +92,9 @@ impl SnapshotBuffer {
 fn beyond(newest: &Game, tick: f64) -> Moment<'_> {
     let dt = newest.table().scene.tick_seconds;
     let tick = tick.min(newest.tick() as f64 + BEYOND);
-    let balls = newest.world().state().balls.iter().map(|ball| ball.at(instant(tick, dt), dt)).collect();
-    Moment { balls, ..Moment::of(newest, 0.0) }
+    let at = instant(tick, dt);
+    let balls = newest.world().state().balls.iter().map(|ball| ball.at(at, dt)).collect();
+    Moment { balls, at, ..Moment::of(newest, 0.0) }
 }
 
 fn between<'a>(earlier: &'a Game, later: &Game, tick: f64) -> Moment<'a> {
@@ -111,6 +112,7 @@ fn between<'a>(earlier: &'a Game, later: &Game, tick: f64) -> Moment<'a> {
         balls: here.chain(gone.map(|ball| ball.at(instant(tick, dt), dt))).collect(),
         flippers: from.flippers.iter().zip(&to.flippers).map(|(a, b)| mix(a.swing, b.swing)).collect(),
         plungers: from.plungers.iter().zip(&to.plungers).map(|(a, b)| mix(a.pull, b.pull)).collect(),
+        at: instant(tick, dt),
         game: earlier,
     }
 }

@@ -19,6 +19,8 @@ pub(crate) struct View {
     pub(crate) popups: Vec<Popup>,
     /// What the display and the side panel say.
     pub(crate) hud: Hud,
+    /// What the physics sees, while somebody wants to see it.
+    pub(crate) overlay: Option<OverlayView>,
     /// Seconds since the client started: for blinking and attract-mode light shows, never for physics.
     pub(crate) clock: f32,
 }
@@ -94,4 +96,75 @@ pub(crate) struct SeatView {
     pub(crate) active: bool,
     /// The person at this window.
     pub(crate) you: bool,
+}
+
+/// What the physics sees, in lines and words.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct OverlayView {
+    /// Shapes, normals, arrows, flights.
+    pub(crate) lines: Vec<OverlayLine>,
+    /// Balls, and points.
+    pub(crate) circles: Vec<OverlayCircle>,
+    /// Words on the table.
+    pub(crate) labels: Vec<OverlayLabel>,
+    /// Words beside it, line by line.
+    pub(crate) words: Vec<(Mark, String)>,
+}
+
+/// What a part of the overlay stands for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Mark {
+    /// A surface.
+    Solid,
+    /// One that stops balls from one side only.
+    OneWay,
+    /// What balls pass.
+    Passed,
+    /// Any of these on a floor that no ball is on.
+    OtherFloor,
+    /// A surface on its way.
+    Moving,
+    /// The side of a surface that balls meet.
+    Normal,
+    /// What a ball lies on.
+    Support,
+    /// A ball.
+    Ball,
+    /// Its velocity.
+    Velocity,
+    /// Its way to come.
+    Flight,
+    /// What it meets at the end of that.
+    Impact,
+}
+
+/// A line through points.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct OverlayLine {
+    /// What it is.
+    pub(crate) mark: Mark,
+    /// Two or more, or one where a way has no length.
+    pub(crate) points: Vec<Vec2>,
+}
+
+/// A circle, or with radius 0 a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct OverlayCircle {
+    /// What it is.
+    pub(crate) mark: Mark,
+    /// Its centre.
+    pub(crate) center: Vec2,
+    /// Metres.
+    pub(crate) radius: f32,
+}
+
+/// Words beside a place.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct OverlayLabel {
+    /// What they are about.
+    pub(crate) mark: Mark,
+    /// The place.
+    pub(crate) place: Vec2,
+    /// The words.
+    pub(crate) text: String,
 }

@@ -16,6 +16,14 @@ pub(super) struct Sprite {
 }
 
 impl Sprite {
+    /// The sprite without its outermost pixel on every side: its colours do not fade when it is stretched.
+    pub(super) fn inner_part(self) -> Self {
+        let pixel = vec2(self.uv.w, self.uv.h) / self.size;
+        let Rect { x, y, w, h } = self.uv;
+        let uv = Rect::new(x + pixel.x, y + pixel.y, w - 2.0 * pixel.x, h - 2.0 * pixel.y);
+        Self { uv, size: self.size - 2.0 }
+    }
+
     /// The right part of the sprite, `width` pixels of it.
     pub(super) fn right_part(self, width: f32) -> Self {
         let share = (width / self.size.x).clamp(0.0, 1.0);

@@ -25,12 +25,14 @@ enum Align {
 }
 
 impl Writer<'_> {
-    /// Everything in the side panels.
-    pub(super) fn panels(&mut self, hud: &Hud, clock: f32) {
+    /// Everything in the side panels; the place of the onlookers may be needed for something else.
+    pub(super) fn panels(&mut self, hud: &Hud, clock: f32, with_onlookers: bool) {
         self.scores(hud, clock);
         self.message(hud);
         self.counters(hud);
-        self.onlookers(hud);
+        if with_onlookers {
+            self.onlookers(hud);
+        }
         self.keys(hud);
     }
 

@@ -13,6 +13,7 @@ mod furniture;
 mod hud;
 mod inserts;
 mod layout;
+mod overlay;
 mod palette;
 mod panels;
 mod playfield;
@@ -34,6 +35,7 @@ use back_buffer::BackBuffer;
 use dot_matrix::Fonts;
 use hud::Writer;
 use layout::{Layout, PixelSize};
+use overlay::OverlayPainter;
 use panels::Panels;
 use scene::Stage;
 use sprites::Sprites;
@@ -117,9 +119,14 @@ fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &Vie
     let mut stage = Stage { layout, panels, table, sprites, fonts, batch };
     stage.draw(view);
 
-    // 3. Text.
+    // 3. What the physics sees of it.
+    if let Some(overlay) = &view.overlay {
+        OverlayPainter { layout, panels, sprites, fonts, batch }.draw(overlay);
+    }
+
+    // 4. Text.
     let mut writer = Writer { panels, fonts, batch };
-    writer.panels(&view.hud, view.clock);
+    writer.panels(&view.hud, view.clock, view.overlay.is_none());
     writer.banner(&view.hud, sprites.plate, sprites::banner_area(layout, panels));
     batch.flush();
     Ok(())

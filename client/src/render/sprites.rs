@@ -39,6 +39,8 @@ pub(super) enum Own<S> {
 pub(super) struct Sprites<S> {
     pub(super) ball: S,
     pub(super) ball_shadow: S,
+    /// One colour all over; stretched to any rectangle.
+    pub(super) dot: S,
     /// Round soft light.
     pub(super) halo: S,
     /// A line with soft edges; stretched to any length and width.
@@ -61,6 +63,7 @@ pub(super) fn build(layout: &Layout, panels: &Panels, table: &TableFile) -> (Bat
     let tickets = Sprites {
         ball: packer.add(ball(ball_radius)),
         ball_shadow: packer.add(ball_shadow(ball_radius)),
+        dot: packer.add(dot()),
         halo: packer.add(halo()),
         bar: packer.add(profile(|_| ink(Vec3::ONE, 1.0))),
         rod: packer.add(profile(|across| {
@@ -116,6 +119,7 @@ impl Sprites<Ticket> {
         Sprites {
             ball: sprite(self.ball),
             ball_shadow: sprite(self.ball_shadow),
+            dot: sprite(self.dot).inner_part(),
             halo: sprite(self.halo),
             bar: sprite(self.bar),
             rod: sprite(self.rod),
@@ -184,6 +188,12 @@ fn profile(coat: impl Fn(f32) -> Vec4) -> Image {
         coat(across) * smooth(0.0, 1.0, p.y.min(ROWS as f32 - p.y) / 1.6)
     });
     canvas.into_image()
+}
+
+/// A few equal pixels.
+fn dot() -> Image {
+    const SIDE: u16 = 4;
+    Image { width: SIDE, height: SIDE, bytes: vec![u8::MAX; usize::from(SIDE) * usize::from(SIDE) * 4] }
 }
 
 /// Dark glass with bright lines above and below.
