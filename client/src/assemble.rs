@@ -4,7 +4,7 @@ use shared::game::Phase;
 use shared::physics::TargetState;
 use shared::table::Table;
 
-use crate::moment::Moment;
+use crate::moment::{Moment, Motion};
 use crate::overlay::overlay_of;
 use crate::screens::Words;
 use crate::session::Session;
@@ -17,7 +17,13 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     let table = session.table();
     let mut view = still_view(table, words, now);
     let balls = moment.balls.iter();
-    view.balls = balls.map(|(p, v)| BallView { position: p.as_vec2(), velocity: v.as_vec2() }).collect();
+    let ball_view = |ball: &Motion| BallView {
+        position: ball.position.as_vec2(),
+        velocity: ball.velocity.as_vec2(),
+        floor: ball.floor,
+        held: false,
+    };
+    view.balls = balls.map(ball_view).collect();
     let flippers = table.scene.flippers.iter().zip(&moment.flippers);
     view.flippers = flippers.map(|(spec, swing)| (spec.rest - swing) as f32).collect();
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();

@@ -2,10 +2,26 @@
 
 use macroquad::math::DVec2;
 use shared::game::Game;
-use shared::physics::ball::Instant;
+use shared::physics::ball::{Ball, Instant};
 
-/// A ball's centre, metres, and velocity, m/s.
-pub(crate) type Motion = (DVec2, DVec2);
+/// A ball at that moment.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Motion {
+    /// Its centre, metres.
+    pub(crate) position: DVec2,
+    /// m/s.
+    pub(crate) velocity: DVec2,
+    /// 0 is the playfield.
+    pub(crate) floor: u8,
+}
+
+impl Motion {
+    /// A ball on its flight.
+    pub(crate) fn of(ball: &Ball, at: Instant, tick_seconds: f64) -> Self {
+        let (position, velocity) = ball.at(at, tick_seconds);
+        Self { position, velocity, floor: ball.floor }
+    }
+}
 
 /// What is to be seen at one moment.
 #[derive(Debug)]
@@ -29,7 +45,7 @@ impl<'a> Moment<'a> {
         let now = Instant { tick: game.tick(), offset: fraction * dt };
         let state = game.world().state();
         Self {
-            balls: state.balls.iter().map(|ball| ball.at(now, dt)).collect(),
+            balls: state.balls.iter().map(|ball| Motion::of(ball, now, dt)).collect(),
             flippers: state.flippers.iter().map(|flipper| flipper.swing).collect(),
             plungers: state.plungers.iter().map(|plunger| plunger.pull).collect(),
             at: now,

@@ -52,6 +52,7 @@ pub(crate) fn overlay_of(moment: &Moment<'_>) -> OverlayView {
             overlay.words_of(ball, flights.iter().find(|flight| flight.ball == ball.id));
         }
     }
+    overlay.word(Mark::Ball, String::new());
     for (mark, text) in LEGEND {
         overlay.word(mark, text.to_owned());
     }
@@ -141,7 +142,7 @@ impl Overlay<'_> {
         let lies = if on.is_empty() { "FLIES".to_owned() } else { format!("LIES ON {}", on.join(" AND ")) };
         self.word(Mark::Ball, format!("BALL {} ON FLOOR {}", ball.id, ball.floor));
         self.word(Mark::Velocity, format!("  {:.3} M/S", velocity.length()));
-        self.word(Mark::Ball, format!("  SPIN {:.1} RAD/S", ball.spin));
+        self.word(Mark::Ball, format!("  SPIN {:.1} RAD/S", shown(ball.spin)));
         self.word(Mark::Support, format!("  {lies}"));
         if let Some(impact) = flight.and_then(|flight| flight.impact) {
             let wait = impact.event.at.since(self.at, self.world.scene().tick_seconds);
@@ -178,6 +179,11 @@ impl Overlay<'_> {
     fn label(&mut self, mark: Mark, place: DVec2, text: String) {
         self.view.labels.push(OverlayLabel { mark, place: place.as_vec2(), text });
     }
+}
+
+/// Without the sign of what is shown as 0.
+fn shown(number: f64) -> f64 {
+    if number.abs() < 0.05 { 0.0 } else { number }
 }
 
 #[cfg(test)]

@@ -93,7 +93,7 @@ fn beyond(newest: &Game, tick: f64) -> Moment<'_> {
     let dt = newest.table().scene.tick_seconds;
     let tick = tick.min(newest.tick() as f64 + BEYOND);
     let at = instant(tick, dt);
-    let balls = newest.world().state().balls.iter().map(|ball| ball.at(at, dt)).collect();
+    let balls = newest.world().state().balls.iter().map(|ball| Motion::of(ball, at, dt)).collect();
     Moment { balls, at, ..Moment::of(newest, 0.0) }
 }
 
@@ -109,7 +109,7 @@ fn between<'a>(earlier: &'a Game, later: &Game, tick: f64) -> Moment<'a> {
     });
     let gone = from.balls.iter().filter(|ball| to.balls.iter().all(|other| other.id != ball.id));
     Moment {
-        balls: here.chain(gone.map(|ball| ball.at(instant(tick, dt), dt))).collect(),
+        balls: here.chain(gone.map(|ball| Motion::of(ball, instant(tick, dt), dt))).collect(),
         flippers: from.flippers.iter().zip(&to.flippers).map(|(a, b)| mix(a.swing, b.swing)).collect(),
         plungers: from.plungers.iter().zip(&to.plungers).map(|(a, b)| mix(a.pull, b.pull)).collect(),
         at: instant(tick, dt),
@@ -122,13 +122,13 @@ fn on_the_way(before: Option<&Ball>, after: &Ball, from: f64, tick: f64, dt: f64
     let now = instant(tick, dt);
     let start = after.flight.start;
     if now.since(start, dt) >= 0.0 {
-        return Some(after.at(now, dt));
+        return Some(Motion::of(after, now, dt));
     }
-    let (position, velocity) = before?.at(now, dt);
+    let motion = Motion::of(before?, now, dt);
     let missed = after.flight.position - before?.at(start, dt).0;
     let begin = instant(from, dt);
     let share = now.since(begin, dt) / start.since(begin, dt);
-    Some((position + missed * share, velocity))
+    Some(Motion { position: motion.position + missed * share, ..motion })
 }
 
 #[cfg(test)]
@@ -169,7 +169,7 @@ mod tests {
                 let (tick, balls) = truth.pop_front().unwrap();
                 let seen = buffer.at(tick as f64).unwrap().balls;
                 for (seen, truth) in seen.iter().zip(&balls) {
-                    let error = (seen.0 - truth.0).length();
+                    let error = (seen.position - truth.position).length();
                     sum += error;
                     worst = worst.max(error);
                     count += 1;

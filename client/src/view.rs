@@ -13,7 +13,7 @@ pub(crate) struct View {
     pub(crate) flippers: Vec<f32>,
     /// For each plunger, in the table's order: metres that the head is pulled back (0: at rest).
     pub(crate) plungers: Vec<f32>,
-    /// For each element of the table, by its place in the file: lit light, fallen target.
+    /// For each element of the table, by its place in the file: lit light, fallen target, turned plate.
     pub(crate) elements: Vec<ElementView>,
     /// Points that float up where they were made.
     pub(crate) popups: Vec<Popup>,
@@ -32,6 +32,10 @@ pub(crate) struct BallView {
     pub(crate) position: Vec2,
     /// Metres a second.
     pub(crate) velocity: Vec2,
+    /// 0 is the playfield.
+    pub(crate) floor: u8,
+    /// It lies in a saucer.
+    pub(crate) held: bool,
 }
 
 /// What an element looks like just now.
@@ -41,6 +45,8 @@ pub(crate) struct ElementView {
     pub(crate) lit: bool,
     /// A drop target that has fallen.
     pub(crate) down: bool,
+    /// A plate on a hinge: how far it is turned from hanging, radians; positive towards the left of its line.
+    pub(crate) turn: f32,
     /// 1 at the moment of a hit (or pass), falling to 0 within about a third of a second.
     pub(crate) flash: f32,
 }

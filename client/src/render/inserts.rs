@@ -29,12 +29,16 @@ fn arrow(center: Vec2, radius: f32, ahead: Vec2) -> Shape {
     Shape::Polygon(vec![corner(1.0, 0.0), corner(-0.75, 0.85), corner(-0.4, 0.0), corner(-0.75, -0.85)])
 }
 
-/// The middle of what an arrow asks for: blue ones the nearest drop target, red ones the nearest rollover.
+/// The middle of what an arrow asks for: blue ones the nearest target, red ones the nearest thing that a ball passes.
 fn aim(table: &TableFile, light: &LightFile) -> Option<Point> {
     let away = |point: &Point| metres(*point).distance(metres(light.center));
     let aims = table.elements.iter().filter_map(|element| match element {
-        ElementFile::DropTarget(target) if light.color == LightColor::Blue => Some(middle(target.from, target.to)),
+        ElementFile::DropTarget(target) | ElementFile::Target(target) if light.color == LightColor::Blue => {
+            Some(middle(target.from, target.to))
+        }
         ElementFile::Rollover(line) if light.color == LightColor::Red => Some(middle(line.from, line.to)),
+        ElementFile::Spinner(spinner) if light.color == LightColor::Red => Some(middle(spinner.from, spinner.to)),
+        ElementFile::Saucer(saucer) if light.color == LightColor::Red => Some(saucer.center),
         _ => None,
     });
     aims.filter(|point| away(point) < AIM_DISTANCE).min_by(|a, b| away(a).total_cmp(&away(b)))

@@ -1,8 +1,8 @@
 //! Draws a [`View`]: the table, the panels beside it, and nothing else of the client.
 //!
 //! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
-//! `furniture`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
-//! `atlas`) and placed by `scene` and `hud`. `layout` and `panels` say where; `back_buffer` shows whole frames only.
+//! `furniture`, `mechanisms`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
+//! `atlas`) and placed by `scene`, `mechanisms`, `overlay` and `hud`. `layout` and `panels` say where; `back_buffer` shows whole frames only.
 
 mod atlas;
 mod back_buffer;
@@ -13,6 +13,7 @@ mod furniture;
 mod hud;
 mod inserts;
 mod layout;
+mod mechanisms;
 mod overlay;
 mod palette;
 mod panels;
@@ -140,6 +141,7 @@ impl Art {
         let picture = canvas::paint_in_bands(size.width, size.height, |canvas| {
             cabinet::paint(canvas, &layout, &panels);
             playfield::paint(canvas, &layout, table);
+            mechanisms::paint(canvas, &layout, table);
             furniture::paint(canvas, &layout, table);
         });
         let still = Texture2D::from_image(&picture);

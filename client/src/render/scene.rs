@@ -43,14 +43,23 @@ impl Stage<'_> {
                     self.lit_insert(index, light.center, palette::light(light.color));
                 }
                 ElementFile::Rollover(line) => self.rollover(line, state.flash),
+                ElementFile::Saucer(saucer) if state.flash > 0.0 => {
+                    self.glow(self.layout.written(saucer.center), self.layout.length(0.085), ICE, state.flash);
+                }
                 _ => {}
             }
         }
+        for ball in view.balls.iter().filter(|ball| ball.held) {
+            self.held_ball(*ball);
+        }
+        let on_floor =
+            |is_upper: bool| view.balls.iter().filter(move |ball| !ball.held && (ball.floor > 0) == is_upper);
         // 2. What stands lower than a ball's centre, and all shadows.
         let mut plungers = view.plungers.iter();
         for (_, (element, state)) in states() {
             match element {
                 ElementFile::DropTarget(target) => self.drop_target(target, *state),
+                ElementFile::Target(target) => self.target(target, *state),
                 ElementFile::Slingshot(sling) => self.slingshot(sling, state.flash),
                 ElementFile::Plunger(plunger) => self.plunger(plunger, plungers.next().copied().unwrap_or_default()),
                 _ => {}
@@ -68,20 +77,29 @@ impl Stage<'_> {
         for (index, flipper, angle) in &flippers {
             self.flipper(*index, flipper, *angle, true);
         }
-        for ball in &view.balls {
+        for ball in on_floor(false) {
             self.ball_shadow(*ball);
         }
-        // 3. Flippers, balls, caps.
+        // 3. Flippers, balls, what hangs over balls, caps, balls on the floors above.
         for (index, flipper, angle) in &flippers {
             self.flipper(*index, flipper, *angle, false);
         }
-        for ball in &view.balls {
+        for ball in on_floor(false) {
             self.ball(*ball);
         }
         for (index, (element, state)) in states() {
-            if let ElementFile::Bumper(bumper) = element {
-                self.bumper(index, self.layout.written(bumper.center), state.flash);
+            match element {
+                ElementFile::Bumper(bumper) => {
+                    self.bumper(index, self.layout.written(bumper.center), state.flash);
+                }
+                ElementFile::Spinner(spinner) => self.spinner((spinner.from, spinner.to), spinner.lever, *state),
+                ElementFile::Gate(gate) => self.gate((gate.from, gate.to), gate.lever, *state),
+                _ => {}
             }
+        }
+        for ball in on_floor(true) {
+            self.ball_shadow(*ball);
+            self.ball(*ball);
         }
         // 4. What floats above.
         for popup in &view.popups {
@@ -98,7 +116,7 @@ impl Stage<'_> {
     }
 
     /// Round light of a diameter.
-    fn glow(&mut self, center: Vec2, diameter: f32, color: Vec3, strength: f32) {
+    pub(super) fn glow(&mut self, center: Vec2, diameter: f32, color: Vec3, strength: f32) {
         let area = Rect::new(center.x - diameter / 2.0, center.y - diameter / 2.0, diameter, diameter);
         self.batch.stretch(self.sprites.halo, area, shine(color, strength));
     }

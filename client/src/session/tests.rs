@@ -93,7 +93,7 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
     client.run_for(1.1);
     client.controls.key_up(KeyCode::Space);
     client.run_for(1.5);
-    let flies = client.session.moment().is_some_and(|m| m.balls.iter().any(|(position, _)| position.y > 0.3));
+    let flies = client.session.moment().is_some_and(|m| m.balls.iter().any(|ball| ball.position.y > 0.3));
     assert!(flies, "the plunger launched nothing");
     let counts = client.session.counts();
     // A busy machine may deliver an input late; it must stay the exception.
