@@ -15,8 +15,8 @@ const TOP: f64 = 40.0;
 const AXIS: f64 = 46.0;
 /// From one line of words to the next.
 const LINE: f64 = 17.0;
-/// About so many marks on the longer axis.
-const MARKS: f64 = 11.0;
+/// At least so many marks on the longer axis, and at most two and a half times as many.
+const MARKS: f64 = 8.0;
 
 /// A part of the plane on paper.
 #[derive(Debug, Clone, Copy)]

@@ -211,7 +211,8 @@ impl Picture<'_> {
         text.push_str("<g id=\"balls\">\n");
         for ball in &self.world.state().balls {
             let (at, velocity) = ball.at(self.now, self.world.scene().tick_seconds);
-            let (color, radius) = (color(ball.id), self.world.scene().radius(ball.kind));
+            // To scale, as long as it is to be seen.
+            let (color, radius) = (color(ball.id), self.world.scene().radius(ball.kind).max(self.frame.metres(2.0)));
             let _ = writeln!(
                 text,
                 "<circle class=\"ball\" fill=\"{color}\" stroke=\"{color}\" stroke-width=\"{}\" cx=\"{}\" cy=\"{}\" r=\"{radius}\"/>",

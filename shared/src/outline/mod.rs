@@ -24,7 +24,7 @@ const PIECES: (f64, f64) = (24.0, 720.0);
 /// From one normal to the next along an arc, in radii of the largest ball.
 const NORMAL_EVERY: f64 = 6.0;
 /// Fewest normals of a whole circle, and most.
-const NORMALS: (f64, f64) = (6.0, 48.0);
+const NORMALS: (f64, f64) = (6.0, 24.0);
 
 /// What an outline belongs to, in the words of a ball's [`Support`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
