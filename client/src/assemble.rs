@@ -30,6 +30,10 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     view.popups = popups;
     fill_hud(&mut view.hud, session, &moment);
     view.overlay = with_overlay.then(|| overlay_of(&moment));
+    if with_overlay {
+        // Whoever wants to see the physics wants nothing in front of it; the display says the same.
+        (view.hud.banner, view.hud.sub_banner) = (String::new(), String::new());
+    }
 
     let targets = table.targets.iter().zip(&moment.game.world().state().targets);
     for (&element, target) in targets {

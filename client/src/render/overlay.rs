@@ -112,7 +112,7 @@ impl OverlayPainter<'_> {
 
     /// Beside its place, on the side on which there is room, on a dark ground.
     fn label(&mut self, label: &OverlayLabel) {
-        let pitch = (self.panels.small / 2).max(1);
+        let pitch = self.pitch(self.panels.small / 2);
         let size = measure(&label.text, pitch);
         let field = self.layout.playfield();
         let place = self.layout.point(label.place);
@@ -133,16 +133,24 @@ impl OverlayPainter<'_> {
         self.fonts.line(self.batch, &label.text, corner, pitch, color(label.mark));
     }
 
+    /// The largest distance between dots up to `wanted` that there is a font for; else the smallest.
+    fn pitch(&self, wanted: u16) -> u16 {
+        self.fonts.fitting("", wanted, f32::INFINITY)
+    }
+
     /// In the side panel, where onlookers are listed otherwise.
     fn words(&mut self, words: &[(Mark, String)]) {
         let area = self.panels.onlookers;
-        let step = f32::from(ROWS * self.panels.small) * 1.5;
+        let inset = (self.panels.padding * 1.2).round();
+        let step = |pitch: u16| f32::from(ROWS * pitch) * 1.5;
+        let widest = |pitch: u16| words.iter().map(|(_, text)| measure(text, pitch).x).fold(0.0, f32::max);
+        let fits = |pitch: &u16| words.len() as f32 * step(*pitch) <= area.h && widest(*pitch) <= area.w - 2.0 * inset;
+        let known = (1..=self.panels.small).rev().map(|pitch| self.pitch(pitch));
+        let pitch = known.into_iter().find(fits).unwrap_or_else(|| self.pitch(1));
         // A cast saturates.
-        let room = (area.h / step) as usize;
+        let room = (area.h / step(pitch)) as usize;
         for ((mark, text), line) in words.iter().take(room).zip(0_u8..) {
-            let inset = (self.panels.padding * 1.2).round();
-            let pitch = self.fonts.fitting(text, self.panels.small, area.w - 2.0 * inset);
-            let corner = vec2(area.x + inset, area.y + f32::from(line) * step);
+            let corner = vec2(area.x + inset, area.y + f32::from(line) * step(pitch));
             self.fonts.line(self.batch, text, corner, pitch, color(*mark));
         }
     }
