@@ -322,8 +322,8 @@ impl<'a, R: Real> Solver<'a, R> {
                 (velocity, body.spin)
             }
             Role::Sensor => (velocity, body.spin),
-            // Plates and saucers are none of its equations.
-            Role::Hinge { .. } | Role::Saucer { .. } => return true,
+            // Plates, saucers and magnets are none of its equations.
+            Role::Hinge { .. } | Role::Saucer { .. } | Role::Field { .. } => return true,
             Role::Solid | Role::Kicker { .. } | Role::Target { .. } | Role::Standing { .. } => {
                 let normal = search::normal(&collider.shape, position);
                 let speed = (-velocity.dot(normal)).to_f64();
