@@ -2,6 +2,7 @@
 
 use shared::game::Phase;
 use shared::physics::TargetState;
+use shared::physics::hinge::{HingeSpec, HingeState};
 use shared::table::Table;
 
 use crate::moment::{Moment, Motion};
@@ -9,6 +10,10 @@ use crate::overlay::overlay_of;
 use crate::screens::Words;
 use crate::session::Session;
 use crate::view::{BallView, ElementView, Hud, SeatView, View};
+
+/// How far a pushed gate opens, radians, and how long it takes to fall shut, seconds.
+const GATE_OPEN: f64 = 1.3;
+const GATE_FALL: f64 = 0.35;
 
 /// The view of a game; `with_overlay`: and of what its physics sees.
 pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overlay: bool) -> View {
@@ -21,7 +26,7 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
         position: ball.position.as_vec2(),
         velocity: ball.velocity.as_vec2(),
         floor: ball.floor,
-        held: false,
+        held: ball.is_held,
     };
     view.balls = balls.map(ball_view).collect();
     let flippers = table.scene.flippers.iter().zip(&moment.flippers);
@@ -41,6 +46,12 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
             element.down = *target == TargetState::Down;
         }
     }
+    let hinges = table.scene.hinges.iter().zip(&moment.game.world().state().hinges);
+    for (spec, hinge) in hinges {
+        if let Some(element) = view.elements.get_mut(usize::from(spec.element)) {
+            element.turn = turn_of(spec, hinge, moment.at.since(hinge.start, table.scene.tick_seconds)) as f32;
+        }
+    }
     for (place, &element) in table.lights.iter().enumerate() {
         if let Some(element) = view.elements.get_mut(usize::from(element)) {
             element.lit = moment.game.lights() >> place & 1 == 1;
@@ -50,6 +61,16 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
         element.flash = session.effects().flash_of(place, now);
     }
     view
+}
+
+/// How far a plate is turned `t` seconds after its state began, radians. A spinner turns as the physics says; of a gate that
+/// says only which way it was pushed: it swings open at once and falls shut.
+fn turn_of(spec: &HingeSpec, hinge: &HingeState, t: f64) -> f64 {
+    match spec.friction {
+        Some(friction) => hinge.at(t, friction).0,
+        None if hinge.speed == 0.0 => 0.0,
+        None => GATE_OPEN.copysign(hinge.speed) * (1.0 - t / GATE_FALL).clamp(0.0, 1.0),
+    }
 }
 
 /// The view of a table at which nothing happens.

@@ -13,13 +13,15 @@ pub(crate) struct Motion {
     pub(crate) velocity: DVec2,
     /// 0 is the playfield.
     pub(crate) floor: u8,
+    /// It lies in a saucer.
+    pub(crate) is_held: bool,
 }
 
 impl Motion {
     /// A ball on its flight.
     pub(crate) fn of(ball: &Ball, at: Instant, tick_seconds: f64) -> Self {
         let (position, velocity) = ball.at(at, tick_seconds);
-        Self { position, velocity, floor: ball.floor }
+        Self { position, velocity, floor: ball.floor, is_held: ball.saucer().is_some() }
     }
 }
 

@@ -87,7 +87,7 @@ impl Overlay<'_> {
             let mark = match kind {
                 _ if balls.iter().any(|ball| part.supports(ball.support)) => Mark::Support,
                 _ if !in_play(floor) => Mark::OtherFloor,
-                _ if !matches!(part, Part::Collider(_)) => Mark::Moving,
+                _ if matches!(part, Part::Flipper(_) | Part::Plunger(_)) => Mark::Moving,
                 Kind::Passed => Mark::Passed,
                 Kind::OneWay => Mark::OneWay,
                 Kind::Solid => Mark::Solid,
@@ -159,7 +159,11 @@ impl Overlay<'_> {
             EventKind::Touched { element, .. }
             | EventKind::Kicked { element, .. }
             | EventKind::Felled { element, .. }
+            | EventKind::Struck { element, .. }
+            | EventKind::Spun { element }
+            | EventKind::Held { element }
             | EventKind::Passed { element } => self.name(element).to_owned(),
+            EventKind::Ejected { element } => format!("OUT OF {}", self.name(element)),
             EventKind::Met { other, .. } => format!("BALL {other}"),
             EventKind::Stalled { .. } => "STALLS".to_owned(),
             EventKind::Drained => "DRAIN".to_owned(),

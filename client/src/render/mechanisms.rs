@@ -16,8 +16,6 @@ use crate::view::{BallView, ElementView};
 const AXLE_HEIGHT: f64 = 0.0095;
 /// Share of its line that a plate is wide; the rest is axle.
 const PLATE: f32 = 0.74;
-/// How far a gate opens when it is pushed, radians.
-const OPEN: f32 = 1.2;
 
 /// Paints what stands still: cups of saucers, axles of spinners and gates.
 pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
@@ -122,7 +120,7 @@ impl Stage<'_> {
     pub(super) fn gate(&mut self, (from, to): (Point, Point), lever: f64, state: ElementView) {
         let (from, to) = (self.layout.written(from), self.layout.written(to));
         let away = (to - from).perp().normalize_or_zero();
-        let swing = away * self.layout.length(lever) * state.turn.clamp(-OPEN, OPEN).sin();
+        let swing = away * self.layout.length(lever) * state.turn.sin();
         let width = self.layout.length(0.0020).max(1.8);
         let (a, b) = inner(from, to, 0.82);
         let (c, d) = (a + swing, b + swing);

@@ -126,7 +126,7 @@ impl Picture<'_> {
             let marks = [
                 (" passed", shape.kind == Kind::Passed),
                 (" oneway", shape.kind == Kind::OneWay),
-                (" mover", !matches!(shape.part, Part::Collider(_))),
+                (" mover", matches!(shape.part, Part::Flipper(_) | Part::Plunger(_))),
                 (" other", !in_play(shape.floor)),
                 (" support", supports),
             ];
@@ -292,6 +292,10 @@ impl Picture<'_> {
             EventKind::Kicked { element, speed } => format!("is kicked by {} at {speed:.3} m/s", self.name(element)),
             EventKind::Felled { element, speed } => format!("fells {} at {speed:.3} m/s", self.name(element)),
             EventKind::Met { other, speed } => format!("meets ball {other} at {speed:.3} m/s"),
+            EventKind::Struck { element, speed } => format!("strikes {} at {speed:.3} m/s", self.name(element)),
+            EventKind::Spun { element } => format!("turns {}", self.name(element)),
+            EventKind::Held { element } => format!("is held by {}", self.name(element)),
+            EventKind::Ejected { element } => format!("is thrown out by {}", self.name(element)),
             EventKind::Passed { element } => format!("passes {}", self.name(element)),
             EventKind::Stalled { .. } => "stalls".to_owned(),
             EventKind::Drained => "drains".to_owned(),

@@ -51,9 +51,10 @@ impl Foresight {
 /// Events do not tell it, since no rule asks for it: it is worked out from where the ball was.
 pub fn normal_of(world: &World, event: &Event) -> Option<DVec2> {
     let element = match event.kind {
-        EventKind::Touched { element, .. } | EventKind::Kicked { element, .. } | EventKind::Felled { element, .. } => {
-            element
-        }
+        EventKind::Touched { element, .. }
+        | EventKind::Kicked { element, .. }
+        | EventKind::Felled { element, .. }
+        | EventKind::Struck { element, .. } => element,
         EventKind::Met { other, .. } => {
             // The other one tells of the same meeting.
             let is_other = |told: &&Event| {

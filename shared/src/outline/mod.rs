@@ -15,6 +15,7 @@ use crate::math::direction;
 use crate::physics::World;
 use crate::physics::ball::Support;
 use crate::physics::flipper::FlipperRest;
+use crate::physics::scene::Role;
 use crate::physics::shapes::{Arc, Segment, Shape, Side};
 
 /// How far a line that stands for a curve may be off it, in radii of the largest ball.
@@ -35,6 +36,8 @@ pub enum Part {
     Flipper(u16),
     /// That plunger, away from home.
     Plunger(u16),
+    /// That saucer.
+    Saucer(u16),
 }
 
 impl Part {
@@ -44,6 +47,7 @@ impl Part {
             (Self::Collider(part), Support::Line(on) | Support::Arc(on)) => part == on,
             (Self::Collider(part), Support::Wedge(one, other)) => part == one || part == other,
             (Self::Flipper(part), Support::Flipper(on)) | (Self::Plunger(part), Support::Plunger(on)) => part == on,
+            (Self::Saucer(part), Support::Held(on) | Support::Released(on)) => part == on,
             _ => false,
         }
     }
@@ -101,7 +105,10 @@ pub fn outlines(world: &World) -> Vec<Outline> {
             Shape::Segment(segment) if segment.one_way => Kind::OneWay,
             _ => Kind::Solid,
         };
-        let part = Part::Collider(index);
+        let part = match collider.role {
+            Role::Saucer { index } => Part::Saucer(index),
+            _ => Part::Collider(index),
+        };
         outlines.push(outline(part, collider.element, collider.floor, kind, &collider.shape, radius));
     }
     for (index, (spec, flipper)) in (0..).zip(scene.flippers.iter().zip(&state.flippers)) {
@@ -132,6 +139,9 @@ pub fn support_elements(world: &World, support: Support) -> Vec<u16> {
         Support::Line(on) | Support::Arc(on) => [of_collider(on), None],
         Support::Wedge(one, other) => [of_collider(one), of_collider(other)],
         Support::Flipper(on) => [scene.flippers.get(usize::from(on)).map(|spec| spec.element), None],
+        Support::Held(on) | Support::Released(on) => {
+            [scene.saucers.get(usize::from(on)).map(|spec| spec.element), None]
+        }
         Support::Plunger(on) => [scene.plungers.get(usize::from(on)).map(|spec| spec.element), None],
     };
     let mut elements: Vec<u16> = found.into_iter().flatten().collect();

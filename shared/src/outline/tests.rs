@@ -154,6 +154,29 @@ fn a_track_goes_through_every_impact_and_along_every_flight() {
 }
 
 #[test]
+fn a_ball_in_a_saucer_lies_there_and_is_thrown_out() {
+    let source = crate::table::SHIPPED[0].1.replace(
+        "        Drain(name: \"drain\"",
+        "        Saucer(name: \"cup\", center: (0.237, 0.37), radius: 0.012, capture: 2.0, kick: (0.0, 1.0), hold: Some(0.5)),
+        Drain(name: \"drain\"",
+    );
+    let table = Table::parse("table.ron", &source).unwrap();
+    let mut world = World::new(Shared::clone(&table.scene));
+    world.launch(0, DVec2::new(0.237, 0.39), DVec2::new(0.0, -0.2)).unwrap();
+    let held = foresee(&world, now(&world), 1.0)[0].impact.unwrap();
+    assert!(matches!(held.event.kind, EventKind::Held { .. }), "{held:?}");
+    for _ in 0..300 {
+        world.step();
+    }
+    let support = world.state().balls[0].support;
+    let on = support_elements(&world, support);
+    assert_eq!(table.file.elements[usize::from(on[0])].name(), "cup");
+    assert!(outlines(&world).iter().any(|outline| outline.part.supports(support)));
+    let out = foresee(&world, now(&world), 1.0)[0].impact.unwrap();
+    assert!(matches!(out.event.kind, EventKind::Ejected { .. }), "{out:?}");
+}
+
+#[test]
 fn both_balls_of_a_meeting_have_the_normal_between_them() {
     let mut world = scene(
         "Scene(gravity: (0.0, 0.0), balls: [(position: (0.0, 0.0), velocity: (1.0, 0.0)), (position: (0.3, 0.0))])",
