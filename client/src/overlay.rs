@@ -26,7 +26,7 @@ const CROSS: f64 = 0.007;
 /// What the colours mean.
 const LEGEND: [(Mark, &str); 3] = [
     (Mark::OneWay, "ONE-WAY, OR MOVING"),
-    (Mark::Passed, "PASSED: SENSOR, DRAIN"),
+    (Mark::Passed, "PASSED: SENSOR, PLATE, HOLE"),
     (Mark::OtherFloor, "ANOTHER FLOOR"),
 ];
 /// Balls that get lines of words of their own.
