@@ -317,6 +317,8 @@ impl<'a, R: Real> Solver<'a, R> {
                 self.lose(ball, time);
                 return false;
             }
+            // Neither are slopes that differ.
+            Role::Hole { to } if self.scene.gravity_on(to) != self.scene.gravity => return true,
             Role::Hole { to } => {
                 body.floor = to;
                 (velocity, body.spin)
