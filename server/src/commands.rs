@@ -13,6 +13,7 @@ use shared::physics::motion::Motion;
 use shared::table::{Accuracy, Horizon};
 use starball_server::measure::{self, Plan};
 use starball_server::picture::{self, Recent};
+use starball_server::seeds;
 use starball_server::simulate::{self, Player, Simulation, Watchers};
 use starball_server::{load_table, load_text, read_table};
 
@@ -32,6 +33,9 @@ pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
         simulation.seconds = replay.ticks() as f64 * table.scene.tick_seconds;
     } else if arguments.bot {
         simulation.player = Player::Bot;
+    }
+    if let (Some(runs), Some(seeds)) = (arguments.bench, arguments.seeds) {
+        return print(&seeds::bench(&table, &simulation, seeds, runs).to_string());
     }
     if let Some(runs) = arguments.bench {
         return print(&simulate::bench(&table, &simulation, runs).to_string());

@@ -13,6 +13,7 @@ pub mod measure;
 mod pacing;
 pub mod picture;
 mod room;
+pub mod seeds;
 mod session;
 pub mod simulate;
 mod tables;

@@ -132,6 +132,9 @@ struct Simulate {
     /// Plays so many times and tells what it costs, as medians: one line of JSON.
     #[arg(long, value_name = "N", conflicts_with_all = ["trace", "record", "svg"], value_parser = clap::value_parser!(u32).range(1..=10_000))]
     bench: Option<u32>,
+    /// Benches the bot over so many seeds, each with and without its thinking, and tells how busy the table was.
+    #[arg(long, value_name = "N", requires_all = ["bench", "bot"], value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    seeds: Option<u32>,
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
