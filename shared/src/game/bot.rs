@@ -1,11 +1,12 @@
 //! A player made of code: seeded, and human. It sees 200 ms late, guesses where the ball is by now, and flips with a
 //! timing error of 12 ms.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use super::Game;
 use super::input::Action;
-use super::state::Phase;
 use crate::math::Rng;
 use crate::physics::ball::Instant;
 use crate::physics::flipper::FlipperSpec;
@@ -20,6 +21,8 @@ const SWING_TIME: f64 = 0.012;
 const FORESIGHT: f64 = 0.12;
 /// Seconds between two thoughts.
 const THINK_EVERY: f64 = 0.01;
+/// Seconds from one point of its picture of the ball's way to the next.
+const PICTURE_STEP: f64 = 0.002;
 /// Seconds for which it holds a flipper, at the least and at the most.
 const HOLD: (f64, f64) = (0.1, 0.25);
 /// Seconds from pulling the plunger to letting go.
@@ -47,12 +50,16 @@ struct Plan {
 pub struct Bot {
     seat: u8,
     rng: Rng,
-    /// What it saw within the last 200 ms, by tick modulo length.
+    /// What it saw at the moments of which it will think 200 ms later, by the number of the thought modulo length.
     sights: Vec<Option<Sight>>,
     plans: [Plan; 2],
     plunge_at: Option<u64>,
     /// Not before this tick does it believe that the ball lies on the plunger: it has just seen it leave.
     plunger_quiet_until: u64,
+    /// Whether it had a ball to play when it was last asked.
+    had_ball: bool,
+    /// In these ticks it has nothing to do, nor to look at, unless it loses the ball or gets one.
+    idle: Range<u64>,
 }
 
 impl Bot {
@@ -65,23 +72,43 @@ impl Bot {
             plans: [Plan::default(); 2],
             plunge_at: None,
             plunger_quiet_until: 0,
+            had_ball: false,
+            idle: 0..0,
         }
     }
 
-    /// What it does in the tick that the game is about to play; `act` gets each action.
-    pub fn play(&mut self, game: &Game, mut act: impl FnMut(Action)) {
+    /// What it does in the tick that the game is about to play; `act` gets each action. To be asked in every tick.
+    #[inline]
+    pub fn play(&mut self, game: &Game, act: impl FnMut(Action)) {
+        let has_ball = game.is_ball_of(self.seat);
+        if has_ball != self.had_ball || !self.idle.contains(&game.tick()) {
+            self.play_now(game, has_ball, act);
+        }
+    }
+
+    /// A tick in which there may be something to do.
+    fn play_now(&mut self, game: &Game, has_ball: bool, mut act: impl FnMut(Action)) {
         let tick = game.tick();
         let dt = game.table().scene.tick_seconds;
-        let seen = self.look(game);
-        if !matches!(game.phase(), Phase::Play { seat, serve_in: 0, .. } if seat == self.seat) {
+        let (latency, every) = (((LATENCY / dt) as u64).max(1), ((THINK_EVERY / dt) as u64).max(1));
+        self.had_ball = has_ball;
+        let seen = self.look(game, latency, every);
+        if has_ball {
+            if let Some(seen) = seen {
+                self.think(game, seen, tick, &mut act);
+            }
+            self.move_hands(tick, dt, &mut act);
+        } else {
             self.let_go(&mut act);
-            return;
         }
-        if tick.is_multiple_of(((THINK_EVERY / dt) as u64).max(1))
-            && let Some(seen) = seen
-        {
-            self.think(game, seen, tick, &mut act);
-        }
+        // The next thought, the next look, or a hand that is due before.
+        let (thought, look) = ((tick / every + 1) * every, ((tick + latency) / every + 1) * every - latency);
+        let hands = self.plans.iter().filter_map(|plan| plan.press_at.or(plan.release_at)).chain(self.plunge_at);
+        self.idle = tick + 1..hands.fold(thought.min(look), u64::min);
+    }
+
+    /// Does what is due.
+    fn move_hands(&mut self, tick: u64, dt: f64, act: &mut impl FnMut(Action)) {
         for (right, plan) in [false, true].into_iter().zip(&mut self.plans) {
             if plan.press_at.is_some_and(|at| at <= tick) {
                 plan.press_at = None;
@@ -99,18 +126,24 @@ impl Bot {
         }
     }
 
-    /// Remembers what is to be seen now, and returns what was to be seen 200 ms ago.
-    fn look(&mut self, game: &Game) -> Option<Sight> {
-        let dt = game.table().scene.tick_seconds;
-        let now = Instant::start_of(game.tick());
-        let balls =
-            game.world().state().balls.iter().filter(|ball| ball.saucer().is_none()).map(|ball| ball.at(now, dt));
-        let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
-        let ticks = ((LATENCY / dt) as usize).max(1);
-        self.sights.resize(ticks, None);
-        let place = (game.tick() % ticks as u64) as usize;
-        let sight = lowest.map(|(position, velocity)| Sight { position, velocity });
-        std::mem::replace(&mut self.sights[place], sight)
+    /// Remembers what is to be seen now, if it will think of it; and if it is time to think, returns what was to be seen
+    /// `latency` ticks ago.
+    fn look(&mut self, game: &Game, latency: u64, every: u64) -> Option<Sight> {
+        let tick = game.tick();
+        // Of one more than are on their way at once: the oldest is read before its place is taken.
+        let length = latency / every + 1;
+        self.sights.resize(length as usize, None);
+        let seen = if tick.is_multiple_of(every) { self.sights[(tick / every % length) as usize] } else { None };
+        if (tick + latency).is_multiple_of(every) {
+            let dt = game.table().scene.tick_seconds;
+            let now = Instant::start_of(tick);
+            let loose = game.world().state().balls.iter().filter(|ball| ball.saucer().is_none());
+            let balls = loose.map(|ball| ball.at(now, dt));
+            let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
+            let place = ((tick + latency) / every % length) as usize;
+            self.sights[place] = lowest.map(|(position, velocity)| Sight { position, velocity });
+        }
+        seen
     }
 
     fn let_go(&mut self, act: &mut impl FnMut(Action)) {
@@ -164,21 +197,34 @@ fn arrival(spec: &FlipperSpec, gravity: DVec2, radius: f64, seen: Sight, target:
     // The mind's picture of the ball, carried forward in steps of 2 ms.
     let pull = if rolls { axis * gravity.dot(axis) } else { gravity };
     let velocity = if rolls { axis * seen.velocity.dot(axis) } else { seen.velocity };
-    let steps = ((LATENCY + FORESIGHT) / 0.002) as u32;
-    for step in 0..steps {
-        let t = f64::from(step) * 0.002;
+    // As far as it goes in a step, at the most.
+    let stride = (velocity.length() + pull.length() * (LATENCY + FORESIGHT)) * PICTURE_STEP;
+    let (highest, lowest, end) = (0.5 * radius, -3.0 * radius, spec.length + 2.0 * radius);
+    let steps = ((LATENCY + FORESIGHT) / PICTURE_STEP) as u32;
+    let mut step = 0;
+    while step < steps {
+        let t = f64::from(step) * PICTURE_STEP;
         let position = seen.position + (velocity + pull * (0.5 * t)) * t;
         let speed = velocity + pull * t;
         let (along, above) = place(position);
         let reached = if rolls {
             along >= target && speed.dot(axis) > 0.0
         } else {
-            above <= 0.5 * radius && above > -3.0 * radius && speed.y < 0.0 && along > 0.2 * spec.length
+            above <= highest && above > lowest && speed.y < 0.0 && along > 0.2 * spec.length
         };
-        if reached && along < spec.length + 2.0 * radius {
+        if reached && along < end {
             let from_now = t - LATENCY;
             return (from_now > -0.03).then_some(from_now);
         }
+        // How far it is, at the least, from where it would be worth it: it need not be followed step by step up to there.
+        let gaps = if rolls {
+            [target - along, along - end, 0.0, 0.0]
+        } else {
+            [above - highest, lowest - above, 0.2 * spec.length - along, along - end]
+        };
+        let gap = gaps.into_iter().fold(0.0, |most, gap| if gap > most { gap } else { most });
+        // A cast saturates, and makes 0 of what is no number.
+        step = step.saturating_add(((gap / stride) as u32).max(1));
     }
     None
 }

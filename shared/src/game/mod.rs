@@ -2,12 +2,14 @@
 //! spectators, replays and tests all run it.
 
 mod bot;
+mod calm;
 mod events;
 mod input;
 mod multiball;
 #[cfg(test)]
 mod multiball_tests;
 pub mod replay;
+mod rescue;
 mod state;
 #[cfg(test)]
 mod tests;
@@ -24,10 +26,9 @@ pub(crate) use state::sample_play;
 pub use state::{GameState, Phase, Play, Seat};
 pub use tilt::Tilt;
 
+use calm::Calm;
 use glam::DVec2;
 
-use crate::math::digest_of;
-use crate::physics::ball::{Instant, Support};
 use crate::physics::{EventKind, StateError, World};
 use crate::rules::{self, Effect, Occasion, Score};
 use crate::table::Table;
@@ -52,6 +53,7 @@ pub struct Game {
     events: Vec<GameEvent>,
     /// The tick that is being played: events are stamped with it.
     now: u64,
+    calm: Calm,
 }
 
 impl Game {
@@ -60,7 +62,7 @@ impl Game {
         let world = World::new(Arc::clone(&table.scene));
         // Of each physical event the rules may make points and a message.
         let events = Vec::with_capacity(3 * world.room_for_events());
-        Self { table, world, play: state::Play::default(), events, now: 0 }
+        Self { table, world, play: state::Play::default(), events, now: 0, calm: Calm::default() }
     }
 
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
@@ -77,12 +79,18 @@ impl Game {
             }
             return &self.events;
         }
+        if inputs.is_empty() && self.tick() < self.calm.until {
+            self.world.step();
+            return &[];
+        }
         self.step_by_rules(inputs);
         &self.events
     }
 
+    #[inline(never)]
     fn step_by_rules(&mut self, inputs: &[Input]) {
         let tick = self.world.state().tick;
+        self.count_calm();
         self.now = tick;
         // 1. What players do.
         for input in inputs.iter().filter(|input| input.tick == tick) {
@@ -103,7 +111,8 @@ impl Game {
             self.free_held_balls();
         }
         self.end_turn_when_lost();
-        self.free_stuck_ball();
+        let look = self.free_stuck_ball();
+        self.find_calm(look);
     }
 
     /// Tells what happened in a world without rules. Kept out of the loop of quiet ticks.
@@ -132,9 +141,9 @@ impl Game {
         &self.world
     }
 
-    /// Whose turn it is.
-    pub fn phase(&self) -> Phase {
-        self.play.phase
+    /// Whether it is that seat's turn, and its ball has been served.
+    pub(super) fn is_ball_of(&self, seat: u8) -> bool {
+        matches!(self.play.phase, Phase::Play { seat: turn, serve_in: 0, .. } if turn == seat)
     }
 
     /// Who is seated, and their points.
@@ -166,11 +175,6 @@ impl Game {
         }
     }
 
-    /// Everything that changes: to be saved, sent or restored.
-    pub fn state(&self) -> GameState {
-        GameState { world: self.world.state().clone(), play: self.play.clone() }
-    }
-
     /// Goes on from a saved state.
     ///
     /// # Errors
@@ -179,13 +183,9 @@ impl Game {
         state.play.check()?;
         self.world.restore(state.world)?;
         self.play = state.play;
+        self.calm = Calm { counted: self.tick(), ..Calm::default() };
         self.events.clear();
         Ok(())
-    }
-
-    /// Digest of the whole state, bit for bit.
-    pub fn digest(&self) -> u64 {
-        digest_of(&(self.world.state(), &self.play))
     }
 
     fn ticks(&self, seconds: f64) -> u32 {
@@ -381,41 +381,6 @@ impl Game {
             self.occasion(Occasion::BallEnd, None);
             self.next_turn();
         }
-    }
-
-    /// A ball that lies still where nobody can move it, or to which nothing has happened for long, is served again.
-    fn free_stuck_ball(&mut self) {
-        let now = Instant::start_of(self.world.state().tick);
-        let scene = &self.table.scene;
-        let (radius, slow) = (scene.radius(0), STILL * scene.radius(0));
-        let state = self.world.state();
-        // In a cradle a ball lies still, too.
-        let held = state.flippers.iter().any(|flipper| flipper.pressed);
-        // Balls in saucers come out by themselves, or when no other is left.
-        let loose = || state.balls.iter().filter(|ball| ball.saucer().is_none());
-        let (mut is_ready, mut is_still) = (loose().next().is_none(), !held);
-        for ball in loose() {
-            let (position, velocity) = ball.at(now, scene.tick_seconds);
-            is_ready |= matches!(ball.support, Support::Plunger(_))
-                || scene.plungers.iter().any(|plunger| plunger.distance(0.0, position).abs() < 2.0 * radius);
-            is_still &= velocity.length() < slow;
-        }
-        let (still_limit, quiet_limit) = (self.ticks(STUCK_AFTER), self.ticks(QUIET_AFTER));
-        let Phase::Play { still, quiet, .. } = &mut self.play.phase else { return };
-        *still = if is_still && !is_ready { still.saturating_add(1) } else { 0 };
-        *quiet = if is_ready { 0 } else { quiet.saturating_add(1) };
-        if *still >= still_limit || *quiet >= quiet_limit {
-            self.serve_again();
-        }
-    }
-
-    /// The player gets the ball again that got lost through no fault of theirs.
-    fn serve_again(&mut self) {
-        let Phase::Play { serve_in: 0, still, quiet, .. } = &mut self.play.phase else { return };
-        (*still, *quiet) = (0, 0);
-        self.world.clear_loose_balls();
-        self.world.serve(self.table.ball_start);
-        self.emit(GameEventKind::Rescued);
     }
 
     fn emit(&mut self, kind: GameEventKind) {

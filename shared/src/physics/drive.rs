@@ -102,13 +102,18 @@ impl World {
         lying.fold(0.0, |sum, ball| sum + self.scene.mass(ball.kind))
     }
 
+    /// The coils of pressed flippers have been on for another tick.
+    pub(super) fn run_coils(&mut self) {
+        for flipper in self.state.flippers.iter_mut().filter(|flipper| flipper.pressed) {
+            flipper.coil_time += self.scene.tick_seconds;
+        }
+    }
+
     /// 4. Carries flippers and plungers over to the next tick.
     pub(super) fn settle_movers(&mut self) {
         let dt = self.scene.tick_seconds;
+        self.run_coils();
         for (flipper, motion) in self.state.flippers.iter_mut().zip(&self.flipper_motions) {
-            if flipper.pressed {
-                flipper.coil_time += dt;
-            }
             if let (Some(motion), FlipperRest::Moving) = (motion, flipper.rest) {
                 flipper.swing = motion.swing_at(dt);
                 flipper.speed = motion.speed_at(dt);

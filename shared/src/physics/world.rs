@@ -11,7 +11,7 @@ use super::ball::{Ball, Flight, Instant, Support};
 use super::constants::{
     CLEAR_OF_TARGET, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK, MOST_SEARCHES_PER_TICK, MOST_SPEED,
 };
-use super::flipper::{FlipperMotion, FlipperRest};
+use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::meetings::Meetings;
 use super::motion::{Motion, Next, Query, Scratch, Span};
 use super::movers::{MovingFlipper, MovingPlunger};
@@ -137,6 +137,8 @@ pub struct World {
     pub(super) busy_from: u64,
     /// The same, or 0 while there is something to tell of the last tick: before it a step only counts.
     pub(super) quiet_until: u64,
+    /// Meanwhile a flipper is held: its coil's time goes on.
+    holds: bool,
 }
 
 impl World {
@@ -156,6 +158,7 @@ impl World {
             before: DVec2::ZERO,
             busy_from: 0,
             quiet_until: 0,
+            holds: false,
             state: WorldState::new(&scene),
             scene,
         };
@@ -171,11 +174,19 @@ impl World {
     pub fn step(&mut self) -> &[Event] {
         // Flights were solved when they began: until the next event, time just passes.
         if self.state.tick < self.quiet_until {
-            self.state.tick += 1;
+            self.pass_quietly();
             return &[];
         }
         self.step_busy();
         &self.events
+    }
+
+    #[inline]
+    fn pass_quietly(&mut self) {
+        self.state.tick += 1;
+        if self.holds {
+            self.run_coils();
+        }
     }
 
     /// A tick in which something may happen, or the one after.
@@ -184,7 +195,7 @@ impl World {
         // 0. What happened in the last tick is told.
         self.events.clear();
         if self.state.tick < self.busy_from {
-            self.state.tick += 1;
+            self.pass_quietly();
             self.quiet_until = self.busy_from;
             return;
         }
@@ -226,6 +237,11 @@ impl World {
     /// Somebody did something: the next tick may be a busy one.
     pub(super) fn wake(&mut self) {
         (self.quiet_until, self.busy_from) = (0, 0);
+    }
+
+    /// Before this tick nothing happens, unless somebody does something; 0 while there is something to tell.
+    pub(crate) fn quiet_until(&self) -> u64 {
+        self.quiet_until
     }
 
     /// What happened in the last step.
@@ -353,7 +369,10 @@ impl World {
             return 0;
         }
         let (state, dt) = (&self.state, self.scene.tick_seconds);
-        let at_work = state.flippers.iter().any(|f| f.pressed || f.rest != FlipperRest::AtRest)
+        // A flipper that is held at the end of its stroke lies as still as one at rest.
+        let stays = |f: &FlipperState| f.rest == if f.pressed { FlipperRest::Raised } else { FlipperRest::AtRest };
+        self.holds = state.flippers.iter().any(|f| f.pressed);
+        let at_work = !state.flippers.iter().all(stays)
             || state.plungers.iter().any(|p| !p.home || !p.stays_home())
             || state.targets.contains(&TargetState::Rising)
             || !state.cabinet.is_still()

@@ -1,0 +1,90 @@
+//! Calm: ticks in which nobody does anything and nothing happens. They only count, and the counts are made up for when
+//! somebody asks: a state, a digest and a replay are the same as if every tick had been played in full.
+
+use super::rescue::Look;
+use super::state::{Phase, Play};
+use super::{Game, GameState};
+use crate::math::digest_of;
+
+/// What is known of the ticks to come, and what of those past is not yet counted. Never part of the state.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Calm {
+    /// Before this tick nothing happens, unless somebody does something.
+    pub(super) until: u64,
+    /// The tick up to which the counters of the phase have counted.
+    pub(super) counted: u64,
+    /// What they go by, up to [`Self::until`].
+    pub(super) look: Look,
+}
+
+impl Calm {
+    /// The phase as it is when `tick` is about to be played.
+    fn count(&self, phase: Phase, tick: u64) -> Phase {
+        let Phase::Play { seat, ball, serve_in, untouched, still, quiet } = phase else { return phase };
+        // Calm ends before any of the counters is due.
+        let ticks = (tick - self.counted) as u32;
+        if ticks == 0 {
+            return phase;
+        }
+        Phase::Play {
+            seat,
+            ball,
+            serve_in: serve_in.saturating_sub(ticks),
+            untouched,
+            still: if self.look.is_stuck() { still.saturating_add(ticks) } else { 0 },
+            quiet: if self.look.is_ready { 0 } else { quiet.saturating_add(ticks) },
+        }
+    }
+}
+
+impl Game {
+    /// Whose turn it is.
+    pub fn phase(&self) -> Phase {
+        self.calm.count(self.play.phase, self.tick())
+    }
+
+    /// Everything that changes: to be saved, sent or restored.
+    pub fn state(&self) -> GameState {
+        GameState { world: self.world.state().clone(), play: self.play_now() }
+    }
+
+    /// Digest of the whole state, bit for bit.
+    pub fn digest(&self) -> u64 {
+        digest_of(&(self.world.state(), &self.play_now()))
+    }
+
+    fn play_now(&self) -> Play {
+        Play { phase: self.phase(), ..self.play.clone() }
+    }
+
+    /// Makes up for the calm ticks: one is about to be played that may not be.
+    pub(super) fn count_calm(&mut self) {
+        self.play.phase = self.phase();
+        self.calm.counted = self.tick();
+    }
+
+    /// After a tick: until when nothing will happen.
+    pub(super) fn find_calm(&mut self, look: Look) {
+        let tick = self.tick();
+        let mut until = self.world.quiet_until();
+        if until > tick
+            && let Phase::Play { serve_in, still, quiet, .. } = self.play.phase
+        {
+            // What is due is done in a tick that is played in full.
+            let mut due_in = |ticks: u32| until = until.min(tick + u64::from(ticks.saturating_sub(1)));
+            if serve_in > 0 {
+                due_in(serve_in);
+            }
+            if look.is_stuck() {
+                due_in(self.ticks(super::STUCK_AFTER).saturating_sub(still));
+            }
+            if !look.is_ready {
+                due_in(self.ticks(super::QUIET_AFTER).saturating_sub(quiet));
+            }
+            if until > tick {
+                until = until.min(self.look_holds_until(&look));
+            }
+        }
+        self.calm = super::Calm { until, counted: tick, look };
+    }
+}
