@@ -10,7 +10,10 @@ use super::{Rounding, Search, TimeOfImpact, without_rounding};
 use crate::math::roots::{Roots, quadratic, sign_changes};
 use crate::physics::ball::Flight;
 use crate::physics::constants::{DEEPEST_OVERLAP, MOST_NEWTON_STEPS, POLISH_STEP};
-use crate::physics::shapes::Arc;
+use crate::physics::shapes::{Arc, Bounds};
+
+/// Share of a circle's area by which a box within it is so beyond any rounding.
+const CLEARLY: f64 = 1e-6;
 
 pub(super) fn first_impact(
     flight: &Flight,
@@ -72,7 +75,9 @@ fn first_crossing(
         if from >= search.before {
             break;
         }
-        if to < search.after {
+        if to < search.after
+            || stays_within(flight, arc, reach, from, if to < search.before { to } else { search.before })
+        {
             continue;
         }
         let contact = touches && from == 0.0;
@@ -84,6 +89,14 @@ fn first_crossing(
         }
     }
     TimeOfImpact::Separated
+}
+
+/// Whether the ball surely stays within the circle meanwhile, and so comes through it from neither side: a box around its way
+/// does, by more than any rounding.
+fn stays_within(flight: &Flight, arc: &Arc, reach: f64, from: f64, to: f64) -> bool {
+    let Bounds { low, high } = Bounds::of_flight(flight, from, to);
+    let farthest = (arc.center - low).abs().max((high - arc.center).abs());
+    farthest.length_squared() < reach * reach * (1.0 - CLEARLY)
 }
 
 /// Crossings from the clear side within `length` seconds from `from` on, seconds since `from`.

@@ -9,31 +9,39 @@ use super::super::scene::{Collider, Scene};
 use super::super::shapes::{Bounds, Shape, Side};
 use super::{Query, Span};
 
-/// Which shapes a search has looked at: a shape that spans several cells is looked at once.
+/// Which shapes a search has looked at: a shape that spans several cells is looked at once, a circle once in each piece of
+/// the way, and then only as far as that goes: a ball within a large circle is told to be clear of it more cheaply than
+/// where it will leave it.
 #[derive(Debug, Clone, Default)]
 pub(in super::super) struct Scratch {
+    /// Of the search's first piece.
     search: u32,
+    piece: u32,
     looked_at: Vec<u32>,
 }
 
 impl Scratch {
     pub(in super::super) fn new(colliders: usize) -> Self {
-        Self { search: 0, looked_at: vec![0; colliders] }
+        Self { search: 0, piece: 0, looked_at: vec![0; colliders] }
     }
 
     fn begin(&mut self) {
-        self.search = self.search.wrapping_add(1);
-        if self.search == 0 {
+        if self.piece > u32::MAX / 2 {
             self.looked_at.fill(0);
-            self.search = 1;
+            self.piece = 0;
         }
+        self.search = self.piece + 1;
+    }
+
+    fn begin_piece(&mut self) {
+        self.piece += 1;
     }
 
     /// Whether it is the first look.
-    fn looks_at(&mut self, index: u16) -> bool {
+    fn looks_at(&mut self, index: u16, is_circle: bool) -> bool {
         let last = &mut self.looked_at[usize::from(index)];
-        let first = *last != self.search;
-        *last = self.search;
+        let first = *last < if is_circle { self.piece } else { self.search };
+        *last = self.piece;
         first
     }
 }
@@ -93,13 +101,13 @@ pub(super) fn first_on_path(
         let time = if t > span.from { t } else { span.from };
         earliest = Earliest { time, found: Found::EndOfSupport(time), ..earliest };
     }
-    // When a shape is met, if that is of interest.
-    let look_at = |index: u16, collider: &Collider, earliest: &Earliest| {
+    // When a shape is met, if that is of interest: not after `end`.
+    let look_at = |index: u16, collider: &Collider, end: f64| {
         let is_support = ball.support != Support::None && is_part_of_support(scene, ball.support, index);
         if is_support || collider.floor != ball.floor || !state.has(collider) {
             return None;
         }
-        let search = Search { before: earliest.time.next_up(), after, strictly: index <= past_index };
+        let search = Search { before: end.next_up(), after, strictly: index <= past_index };
         time_of(index, collider, &search).time()
     };
     match &scene.grid {
@@ -114,14 +122,14 @@ fn among_all(
     path: &Flight,
     span: Span,
     mut earliest: Earliest,
-    look_at: impl Fn(u16, &Collider, &Earliest) -> Option<f64>,
+    look_at: impl Fn(u16, &Collider, f64) -> Option<f64>,
 ) -> (Found, Option<Bounds>) {
     // The box around the way up to the earliest event, once there is an end to it.
     let way_until = |end: f64| Bounds::of_flight(path, span.from, if end > span.from { end } else { span.from });
     let mut around = (span.to < f64::INFINITY).then(|| way_until(span.to));
     for (index, collider) in (0..).zip(&scene.colliders) {
         if around.is_none_or(|around| around.meets(&collider.bounds))
-            && let Some(time) = look_at(index, collider, &earliest)
+            && let Some(time) = look_at(index, collider, earlier(earliest.time, span.to))
             && earliest.takes(time, index)
             && time < span.to
         {
@@ -144,7 +152,7 @@ fn along_cells(
     path: &Flight,
     span: Span,
     mut earliest: Earliest,
-    look_at: impl Fn(u16, &Collider, &Earliest) -> Option<f64>,
+    look_at: impl Fn(u16, &Collider, f64) -> Option<f64>,
 ) -> Found {
     scratch.begin();
     let mut from = span.from;
@@ -154,11 +162,14 @@ fn along_cells(
         let mut end = if to < earliest.time { to } else { earliest.time };
         let mut around = Bounds::of_flight(path, from, end);
         let reached = around;
+        scratch.begin_piece();
         grid.visit(&reached, |index| {
             let collider = &scene.colliders[usize::from(index)];
+            let is_circle = matches!(collider.shape, Shape::Arc(arc) if arc.radius > 0.0);
             if around.meets(&collider.bounds)
-                && scratch.looks_at(index)
-                && let Some(time) = look_at(index, collider, &earliest)
+                && scratch.looks_at(index, is_circle)
+                && let Some(time) =
+                    look_at(index, collider, earlier(earliest.time, if is_circle { to } else { span.to }))
                 && earliest.takes(time, index)
                 && time < end
             {
@@ -177,6 +188,10 @@ fn along_cells(
     Found::ClearUntil(from)
 }
 
+fn earlier(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
 /// When a ball that lies on something reaches the end of it, or grips it after sliding; seconds since its flight's start.
 pub(super) fn support_ends(scene: &Scene, ball: &Ball) -> Option<f64> {
     let grips = ball.slide.and_then(|slide| slide.until);
@@ -187,7 +202,7 @@ pub(super) fn support_ends(scene: &Scene, ball: &Ball) -> Option<f64> {
         _ => None,
     };
     match (grips, leaves) {
-        (Some(a), Some(b)) => Some(if a < b { a } else { b }),
+        (Some(a), Some(b)) => Some(earlier(a, b)),
         (one, None) | (None, one) => one,
     }
 }
