@@ -165,7 +165,7 @@ mod tests {
             assert!(number(&told[0]["us_per_simulated_second"][who]["median"]) > 0.0, "{}", told[0]);
         }
         assert!(number(&told[0]["off_plunger_share"]) < number(&told[0]["with_ball_share"]), "{}", told[0]);
-        assert!(number(&told[0]["impacts_per_second"]) > 0.0 && told[0]["balls"] == 3, "{}", told[0]);
+        assert!(number(&told[0]["impacts_per_second"]) > 0.0 && told[0]["balls"].as_u64() >= Some(3), "{}", told[0]);
     }
 
     #[test]
