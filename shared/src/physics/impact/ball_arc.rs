@@ -12,7 +12,7 @@ use crate::physics::ball::Flight;
 use crate::physics::constants::{DEEPEST_OVERLAP, MOST_NEWTON_STEPS, POLISH_STEP};
 use crate::physics::shapes::{Arc, Bounds};
 
-/// Share of a circle's area by which a box within it is so beyond any rounding.
+/// Share of a circle's radius by which a box is clear of it beyond any rounding.
 const CLEARLY: f64 = 1e-6;
 
 pub(super) fn first_impact(
@@ -75,12 +75,11 @@ fn first_crossing(
         if from >= search.before {
             break;
         }
-        if to < search.after
-            || stays_within(flight, arc, reach, from, if to < search.before { to } else { search.before })
-        {
+        let contact = touches && from == 0.0;
+        let end = if to < search.before { to } else { search.before };
+        if to < search.after || (!contact && passes_by(flight, arc, reach, from, end)) {
             continue;
         }
-        let contact = touches && from == 0.0;
         for &s in crossings(flight, arc, reach, from, to - from, contact.then_some(rounding)).as_slice() {
             let t = polish(flight, arc, reach, from, to, from + s);
             if search.accepts(t) && (!contact || t > 0.0) && arc.spans(flight.position_at(t) - arc.center) {
@@ -91,12 +90,19 @@ fn first_crossing(
     TimeOfImpact::Separated
 }
 
-/// Whether the ball surely stays within the circle meanwhile, and so comes through it from neither side: a box around its way
-/// does, by more than any rounding.
-fn stays_within(flight: &Flight, arc: &Arc, reach: f64, from: f64, to: f64) -> bool {
-    let Bounds { low, high } = Bounds::of_flight(flight, from, to);
-    let farthest = (arc.center - low).abs().max((high - arc.center).abs());
-    farthest.length_squared() < reach * reach * (1.0 - CLEARLY)
+/// Whether the ball surely does not come through the arc meanwhile: a box around its way is within the circle, beyond it, or
+/// beside the span, by more than any rounding.
+fn passes_by(flight: &Flight, arc: &Arc, reach: f64, from: f64, to: f64) -> bool {
+    let way = Bounds::of_flight(flight, from, to);
+    let (low, high) = (way.low - arc.center, way.high - arc.center);
+    let (nearest, farthest) = (DVec2::ZERO.max(low).min(high).length(), low.abs().max(high.abs()).length());
+    let margin = reach * CLEARLY;
+    farthest < reach - margin
+        || nearest > reach + margin
+        || arc.span.is_some_and(|(middle, cosine)| {
+            let most = (low * middle).max(high * middle);
+            most.x + most.y < cosine * if cosine > 0.0 { nearest } else { farthest } - margin
+        })
 }
 
 /// Crossings from the clear side within `length` seconds from `from` on, seconds since `from`.
