@@ -11,13 +11,14 @@ use shared::extremes::shots::{FASTEST, Shots, shots};
 use shared::game::replay::{Recorder, Replay};
 use shared::physics::motion::Motion;
 use shared::table::{Accuracy, Horizon};
+use starball_server::games;
 use starball_server::measure::{self, Plan};
 use starball_server::picture::{self, Recent};
 use starball_server::seeds;
 use starball_server::simulate::{self, Player, Simulation, Watchers};
 use starball_server::{load_table, load_text, read_table};
 
-use crate::{Measure, Simulate};
+use crate::{Games, Measure, Simulate};
 
 /// `simulate`.
 pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
@@ -66,6 +67,16 @@ pub(crate) fn simulate(arguments: &Simulate) -> Result<(), String> {
     }
     let takes_output = |path: &Option<PathBuf>| path.as_deref() == Some(Path::new("-"));
     if takes_output(&arguments.trace) || takes_output(&arguments.svg) { Ok(()) } else { print(&told.to_string()) }
+}
+
+/// `games`.
+pub(crate) fn games(arguments: &Games) -> Result<(), String> {
+    let table = load_table(&arguments.table)?;
+    if !table.has_rules {
+        return Err(format!("{:?} is a bare scene: there is nothing for a bot to play", arguments.table));
+    }
+    let games = games::Games::play(&table, arguments.games, arguments.seed, arguments.threads);
+    if arguments.json { print(&games.json().to_string()) } else { print(games.text().trim_end()) }
 }
 
 /// `extremes`.

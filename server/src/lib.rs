@@ -7,6 +7,7 @@
 mod account;
 mod config;
 mod connection;
+pub mod games;
 mod listener;
 mod lobby;
 pub mod measure;

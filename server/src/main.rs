@@ -30,6 +30,9 @@ const LISTEN_HINT: &str = "127.0.0.1:7777 is for this machine, 0.0.0.0:7777 for 
 enum Command {
     /// Plays a table without network, as fast as possible, and prints the outcome as one line of JSON.
     Simulate(Simulate),
+    /// Has the bot play whole games, and tells how the table plays: how long balls live, how points spread, what is hit and
+    /// what never.
+    Games(Games),
     /// Checks the physics at its extremes with each motion model and prints what passes and what the limits are, as a table in
     /// Markdown. The exit status tells whether all is as stated.
     Extremes(Extremes),
@@ -55,6 +58,24 @@ struct Serve {
     /// Most clients at once.
     #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=100_000))]
     most_connections: u32,
+}
+
+#[derive(Debug, Args)]
+struct Games {
+    /// A shipped table's name or a table file.
+    table: String,
+    /// How many.
+    #[arg(long, default_value_t = 1000, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    games: u32,
+    /// What the bot's habits in the first game follow from; the others count on.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Prints one JSON object instead of a table.
+    #[arg(long)]
+    json: bool,
+    /// Games that are played at once; the outcome is the same.
+    #[arg(long, default_value_t = 2, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=256))]
+    threads: u32,
 }
 
 #[derive(Debug, Args)]
@@ -155,6 +176,7 @@ fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
         Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
+        Some(Command::Games(arguments)) => commands::games(&arguments),
         Some(Command::Extremes(arguments)) => commands::extremes(arguments.shots),
         Some(Command::Measure(arguments)) => commands::measure(&arguments),
         None => serve(&arguments.serve),

@@ -1,0 +1,280 @@
+//! `games`: the bot plays whole games on a table, and a report tells how the table plays: how long balls live, how points
+//! spread, what is hit and what never, and whether a ball ever had to be rescued or never ended.
+
+use std::fmt::Write;
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+use shared::game::{Game, GameEventKind, Phase};
+use shared::physics::EventKind;
+use shared::table::{ElementFile, Table};
+
+use crate::simulate::{Inputs, Player, Simulation};
+
+/// World time after which a game is given up, seconds: half an hour. Its last ball never ended.
+const LONGEST_GAME: f64 = 1800.0;
+
+/// What happened in one game.
+#[derive(Debug, Clone, PartialEq)]
+struct Played {
+    /// From serve to loss, seconds.
+    ball_times: Vec<f64>,
+    /// From start to end, seconds.
+    time: f64,
+    points: u64,
+    /// Of each element: how often a ball met it, or passed it.
+    hits: Vec<u32>,
+    flips: u64,
+    impacts: u64,
+    /// Stuck balls that were served again.
+    rescued: u64,
+    /// Balls that left the table and were served again.
+    escaped: u64,
+    /// Whether it was given up.
+    endless: bool,
+}
+
+/// What happened in all games, in the order of their seeds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Games {
+    table: Arc<Table>,
+    played: Vec<Played>,
+}
+
+impl Games {
+    /// Has the bot play `count` games, with the seeds from `seed` on, on that many threads. How many does not alter the outcome.
+    ///
+    /// # Panics
+    /// If a thread does.
+    pub fn play(table: &Arc<Table>, count: u32, seed: u64, threads: u32) -> Self {
+        let (count, threads) = (u64::from(count), u64::from(threads.max(1)));
+        let part = |thread: u64| {
+            let places = count * thread / threads..count * (thread + 1) / threads;
+            places.map(|place| play(table, seed.wrapping_add(place))).collect::<Vec<_>>()
+        };
+        let played = std::thread::scope(|scope| {
+            let threads: Vec<_> = (0..threads).map(|thread| scope.spawn(move || part(thread))).collect();
+            let join = |thread: std::thread::ScopedJoinHandle<'_, Vec<Played>>| {
+                thread.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            };
+            threads.into_iter().flat_map(join).collect()
+        });
+        Self { table: Arc::clone(table), played }
+    }
+
+    /// Each element that a ball can meet or pass, with how often a game it was, and in what share of the games.
+    fn elements(&self) -> Vec<(&str, f64, f64)> {
+        let count = self.played.len().max(1) as f64;
+        let elements = self.table.file.elements.iter().enumerate();
+        elements
+            // A light is looked at only, and a drain is told by the balls that are lost.
+            .filter(|(_, element)| !matches!(element, ElementFile::Light(_) | ElementFile::Drain(_)))
+            .map(|(place, element)| {
+                let hits = self.played.iter().map(|game| u64::from(game.hits[place])).sum::<u64>();
+                let games = self.played.iter().filter(|game| game.hits[place] > 0).count();
+                (element.name(), hits as f64 / count, games as f64 / count)
+            })
+            .collect()
+    }
+
+    fn ball_times(&self) -> Spread {
+        Spread::of(self.played.iter().flat_map(|game| game.ball_times.iter().copied()))
+    }
+
+    fn game_times(&self) -> Spread {
+        Spread::of(self.played.iter().map(|game| game.time))
+    }
+
+    fn points(&self) -> Spread {
+        Spread::of(self.played.iter().map(|game| game.points as f64))
+    }
+
+    fn sum(&self, of: impl Fn(&Played) -> u64) -> u64 {
+        self.played.iter().map(of).sum()
+    }
+
+    fn a_second(&self, of: impl Fn(&Played) -> u64) -> f64 {
+        let seconds: f64 = self.played.iter().map(|game| game.time).sum();
+        if seconds > 0.0 { self.sum(of) as f64 / seconds } else { 0.0 }
+    }
+
+    /// One JSON object with everything.
+    pub fn json(&self) -> Value {
+        let elements: Vec<_> = self
+            .elements()
+            .into_iter()
+            .map(|(name, hits, share)| json!({ "element": name, "hits_a_game": hits, "share_of_games": share }))
+            .collect();
+        json!({
+            "table": self.table.name,
+            "games": self.played.len(),
+            "ball_seconds": self.ball_times().json(),
+            "game_seconds": self.game_times().json(),
+            "points": self.points().json(),
+            "elements": elements,
+            "rescued": self.sum(|game| game.rescued),
+            "escaped": self.sum(|game| game.escaped),
+            "endless": self.sum(|game| u64::from(game.endless)),
+            "flips_a_second": self.a_second(|game| game.flips),
+            "impacts_a_second": self.a_second(|game| game.impacts),
+        })
+    }
+
+    /// A table for people.
+    pub fn text(&self) -> String {
+        let mut out = format!("{}: {} games of the bot's\n\n", self.table.name, self.played.len());
+        let mut line = |text: std::fmt::Arguments<'_>| {
+            // A string takes everything.
+            let _ = writeln!(out, "{text}");
+        };
+        let heads = ["least", "quarter", "median", "quarter", "most", "mean"];
+        let row = |cells: [f64; 6], digits: usize| cells.map(|cell| format!("{cell:>10.digits$}")).concat();
+        line(format_args!("{:<16}{}", "", heads.map(|head| format!("{head:>10}")).concat()));
+        line(format_args!("{:<16}{}", "ball, seconds", row(self.ball_times().cells(), 1)));
+        line(format_args!("{:<16}{}", "game, seconds", row(self.game_times().cells(), 1)));
+        line(format_args!("{:<16}{}", "points", row(self.points().cells(), 0)));
+        line(format_args!(""));
+        line(format_args!(
+            "{:.2} flips and {:.2} impacts a second",
+            self.a_second(|game| game.flips),
+            self.a_second(|game| game.impacts)
+        ));
+        line(format_args!(
+            "{} stuck balls served again, {} escaped, {} that had not ended after {LONGEST_GAME:.0} s of play",
+            self.sum(|game| game.rescued),
+            self.sum(|game| game.escaped),
+            self.sum(|game| u64::from(game.endless)),
+        ));
+        line(format_args!(""));
+        line(format_args!("{:<24}{:>12}{:>12}", "element", "hits a game", "of games"));
+        for (name, hits, share) in self.elements() {
+            let never = if share > 0.0 { "" } else { "  never hit" };
+            line(format_args!("{name:<24}{hits:>12.2}{:>10.1} %{never}", 100.0 * share));
+        }
+        out
+    }
+}
+
+/// Plays one game to its end, or up to [`LONGEST_GAME`].
+fn play(table: &Arc<Table>, seed: u64) -> Played {
+    let simulation = Simulation { seconds: LONGEST_GAME, player: Player::Bot, seed };
+    let dt = table.scene.tick_seconds;
+    let (mut game, mut player, mut inputs) = (Game::new(Arc::clone(table)), Inputs::new(&simulation), Vec::new());
+    let mut played = Played {
+        ball_times: Vec::new(),
+        time: LONGEST_GAME,
+        points: 0,
+        hits: vec![0; table.file.elements.len()],
+        flips: 0,
+        impacts: 0,
+        rescued: 0,
+        escaped: 0,
+        endless: true,
+    };
+    let mut served = None;
+    for tick in 0..simulation.ticks(table) {
+        player.choose(&game, &mut inputs);
+        for event in game.step(&inputs) {
+            match event.kind {
+                GameEventKind::Points { points, .. } => played.points = played.points.saturating_add(points),
+                GameEventKind::Flipped { .. } => played.flips += 1,
+                GameEventKind::Rescued => played.rescued += 1,
+                GameEventKind::Served { .. } => served = Some(tick),
+                GameEventKind::Lost { .. } => {
+                    played.ball_times.extend(served.take().map(|served| (tick - served) as f64 * dt));
+                }
+                _ => {}
+            }
+        }
+        for event in game.world().events() {
+            match event.kind {
+                EventKind::Touched { element, .. }
+                | EventKind::Kicked { element, .. }
+                | EventKind::Felled { element, .. } => {
+                    played.hits[usize::from(element)] += 1;
+                    played.impacts += 1;
+                }
+                EventKind::Passed { element } => played.hits[usize::from(element)] += 1,
+                EventKind::Met { .. } => played.impacts += 1,
+                EventKind::Escaped => played.escaped += 1,
+                EventKind::Stalled { .. } | EventKind::Drained => {}
+            }
+        }
+        if matches!(game.phase(), Phase::Over) {
+            (played.time, played.endless) = ((tick + 1) as f64 * dt, false);
+            break;
+        }
+    }
+    // An escaped ball is served again like a stuck one.
+    played.rescued = played.rescued.saturating_sub(played.escaped);
+    played
+}
+
+/// How numbers spread.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Spread {
+    /// Least, lower quartile, median, upper quartile, most: each one of the numbers.
+    five: [f64; 5],
+    mean: f64,
+}
+
+impl Spread {
+    /// Of nothing, all zeros.
+    fn of(numbers: impl Iterator<Item = f64>) -> Self {
+        let mut sorted: Vec<f64> = numbers.collect();
+        sorted.sort_by(f64::total_cmp);
+        let Some(last) = sorted.len().checked_sub(1) else { return Self { five: [0.0; 5], mean: 0.0 } };
+        let five = [0, 1, 2, 3, 4].map(|quarter| sorted[last * quarter / 4]);
+        Self { five, mean: sorted.iter().sum::<f64>() / sorted.len() as f64 }
+    }
+
+    fn cells(&self) -> [f64; 6] {
+        let [least, lower, median, upper, most] = self.five;
+        [least, lower, median, upper, most, self.mean]
+    }
+
+    fn json(&self) -> Value {
+        let [least, lower, median, upper, most] = self.five;
+        json!({ "least": least, "lower_quartile": lower, "median": median, "upper_quartile": upper, "most": most, "mean": self.mean })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::load_table;
+
+    #[test]
+    fn games_are_the_same_again_and_on_any_number_of_threads() {
+        let table = load_table("classic").expect("it is shipped");
+        let one = Games::play(&table, 3, 7, 1);
+        for threads in [1, 2, 5] {
+            let again = Games::play(&table, 3, 7, threads);
+            assert_eq!((again.json(), again.text()), (one.json(), one.text()), "{threads} threads");
+        }
+        assert_ne!(Games::play(&table, 3, 8, 2).json(), one.json());
+    }
+
+    #[test]
+    fn a_report_tells_of_balls_points_and_elements() {
+        let table = load_table("classic").expect("it is shipped");
+        let games = Games::play(&table, 4, 1, 2);
+        let told = games.json();
+        let number = |value: &Value| value.as_f64().expect("a number");
+        assert_eq!((&told["games"], &told["endless"]), (&json!(4), &json!(0)));
+        assert!(number(&told["points"]["least"]) > 0.0 && number(&told["ball_seconds"]["median"]) > 1.0, "{told}");
+        assert!(number(&told["game_seconds"]["mean"]) >= 3.0 * number(&told["ball_seconds"]["mean"]), "{told}");
+        let elements = told["elements"].as_array().expect("a list");
+        let of = |name: &str| elements.iter().find(|element| element["element"] == name);
+        assert!(of("bumper 1").is_some_and(|bumper| number(&bumper["hits_a_game"]) > 0.0), "{told}");
+        assert!(of("drain").is_none() && of("lane 1 light").is_none(), "{told}");
+        assert!(games.text().contains("bumper 1"));
+    }
+
+    #[test]
+    fn a_spread_names_numbers_that_were_there() {
+        let spread = Spread::of([4.0, 1.0, 3.0, 2.0, 10.0].into_iter());
+        assert_eq!((spread.five, spread.mean), ([1.0, 2.0, 3.0, 4.0, 10.0], 4.0));
+        assert_eq!(Spread::of([].into_iter()).five, [0.0; 5]);
+    }
+}
