@@ -1,7 +1,7 @@
 //! What events leave to be seen for a moment: flashes, points that float up, a line on the display.
 
 use macroquad::math::{Vec2, vec2};
-use shared::game::{GameEvent, GameEventKind};
+use shared::game::{GameEvent, GameEventKind, Rescue};
 use shared::table::Table;
 
 use crate::view::Popup;
@@ -50,7 +50,8 @@ impl Effects {
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
             GameEventKind::Added { .. } => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
-            GameEventKind::Rescued => self.say("NEW BALL".to_owned(), now),
+            GameEventKind::Rescued { by: Rescue::Kickers } => self.say("BALL SEARCH".to_owned(), now),
+            GameEventKind::Rescued { by: Rescue::Relaunch } => self.say("NEW BALL".to_owned(), now),
             _ => {}
         }
     }

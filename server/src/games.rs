@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use shared::game::{Game, GameEventKind, Phase};
+use shared::game::{Game, GameEventKind, Phase, Rescue};
 use shared::physics::EventKind;
 use shared::table::{ElementFile, Table};
 
@@ -26,6 +26,8 @@ struct Played {
     hits: Vec<u32>,
     flips: u64,
     impacts: u64,
+    /// Times that all kickers were fired for a stuck ball.
+    kicked: u64,
     /// Stuck balls that were served again.
     rescued: u64,
     /// Balls that left the table and were served again.
@@ -112,6 +114,7 @@ impl Games {
             "game_seconds": self.game_times().json(),
             "points": self.points().json(),
             "elements": elements,
+            "kickers_fired": self.sum(|game| game.kicked),
             "rescued": self.sum(|game| game.rescued),
             "escaped": self.sum(|game| game.escaped),
             "endless": self.sum(|game| u64::from(game.endless)),
@@ -140,7 +143,8 @@ impl Games {
             self.a_second(|game| game.impacts)
         ));
         line(format_args!(
-            "{} stuck balls served again, {} escaped, {} that had not ended after {LONGEST_GAME:.0} s of play",
+            "all kickers fired {} times, {} stuck balls served again, {} escaped, {} that had not ended after {LONGEST_GAME:.0} s of play",
+            self.sum(|game| game.kicked),
             self.sum(|game| game.rescued),
             self.sum(|game| game.escaped),
             self.sum(|game| u64::from(game.endless)),
@@ -167,6 +171,7 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
         hits: vec![0; table.file.elements.len()],
         flips: 0,
         impacts: 0,
+        kicked: 0,
         rescued: 0,
         escaped: 0,
         endless: true,
@@ -178,7 +183,8 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
             match event.kind {
                 GameEventKind::Points { points, .. } => played.points = played.points.saturating_add(points),
                 GameEventKind::Flipped { .. } => played.flips += 1,
-                GameEventKind::Rescued => played.rescued += 1,
+                GameEventKind::Rescued { by: Rescue::Kickers } => played.kicked += 1,
+                GameEventKind::Rescued { by: Rescue::Relaunch } => played.rescued += 1,
                 GameEventKind::Served { .. } => served = Some(tick),
                 GameEventKind::Lost { .. } => {
                     played.ball_times.extend(served.take().map(|served| (tick - served) as f64 * dt));

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use bytes::Bytes;
-use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, SEATS};
+use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, Rescue, SEATS};
 use shared::protocol::{ClientMessage, MOST_EVENTS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS};
 use tokio::sync::{broadcast, mpsc, oneshot};
 use tokio::time::{Instant, MissedTickBehavior};
@@ -326,7 +326,10 @@ impl Room {
         match kind {
             GameEventKind::Started => self.account.games += 1,
             GameEventKind::Served { .. } => self.account.balls += 1,
-            GameEventKind::Rescued => {
+            GameEventKind::Rescued { by: Rescue::Kickers } => {
+                tracing::warn!("tick {}: a ball is stuck, and all kickers are fired", self.game.tick());
+            }
+            GameEventKind::Rescued { by: Rescue::Relaunch } => {
                 self.account.rescued += 1;
                 tracing::warn!("tick {}: a ball was stuck and is served again", self.game.tick());
             }

@@ -84,7 +84,7 @@ fn watch(table: &Arc<Table>, simulation: &Simulation, ticks: u64, happened: &mut
                 GameEventKind::Points { points, .. } => happened.points = happened.points.saturating_add(points),
                 GameEventKind::Flipped { .. } => happened.flips += 1,
                 GameEventKind::Served { .. } => happened.balls += 1,
-                GameEventKind::Rescued => happened.rescued += 1,
+                GameEventKind::Rescued { .. } => happened.rescued += 1,
                 _ => {}
             }
         }

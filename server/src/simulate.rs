@@ -93,7 +93,7 @@ pub struct Watchers<'a> {
 }
 
 /// Plays, and tells the outcome as one line of JSON: `score` (points of all games together), `games` begun, `balls`
-/// served, `rescued` (times that a stuck or escaped ball was served again), `ticks`, and the final state's `digest`; of a bare
+/// served, `rescued` (times that something was done about a stuck or escaped ball), `ticks`, and the final state's `digest`; of a bare
 /// scene `events` (impacts and whatever else happened), `escaped` balls, `ticks` and `digest`. Table, seconds, seed and inputs
 /// decide every bit of it.
 ///
@@ -119,7 +119,7 @@ pub fn run(table: &Arc<Table>, simulation: &Simulation, watchers: Watchers<'_>) 
                 GameEventKind::Points { points, .. } => score = score.saturating_add(points),
                 GameEventKind::Started => games += 1,
                 GameEventKind::Served { .. } => balls += 1,
-                GameEventKind::Rescued => rescued += 1,
+                GameEventKind::Rescued { .. } => rescued += 1,
                 _ => {}
             }
         }

@@ -5,7 +5,7 @@ use core::fmt::Write;
 use std::sync::Arc;
 
 use serde_json::{Value, json};
-use shared::game::{Game, GameEventKind, Phase};
+use shared::game::{Game, GameEventKind, Phase, Rescue};
 use shared::physics::motion::Motion;
 use shared::table::Table;
 
@@ -104,7 +104,7 @@ fn play(table: &Arc<Table>, motion: Motion, tick_hz: u32, count: usize) -> Games
                         lost += 1;
                         ball_times.extend(began.take().map(|began| (tick - began) as f64 * dt));
                     }
-                    GameEventKind::Rescued => rescued += 1,
+                    GameEventKind::Rescued { by: Rescue::Relaunch } => rescued += 1,
                     _ => {}
                 }
             }

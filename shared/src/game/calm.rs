@@ -1,7 +1,7 @@
 //! Calm: ticks in which nobody does anything and nothing happens. They only count, and the counts are made up for when
 //! somebody asks: a state, a digest and a replay are the same as if every tick had been played in full.
 
-use super::rescue::Look;
+use super::rescue::{Look, QUIET_AFTER, STUCK_AFTER};
 use super::state::{Phase, Play};
 use super::{Game, GameState};
 use crate::math::digest_of;
@@ -20,7 +20,9 @@ pub(super) struct Calm {
 impl Calm {
     /// The phase as it is when `tick` is about to be played.
     fn count(&self, phase: Phase, tick: u64) -> Phase {
-        let Phase::Play { seat, ball, serve_in, untouched, still, quiet } = phase else { return phase };
+        let Phase::Play { seat, ball, serve_in, untouched, still, watched, quiet, searches } = phase else {
+            return phase;
+        };
         // Calm ends before any of the counters is due.
         let ticks = (tick - self.counted) as u32;
         if ticks == 0 {
@@ -31,8 +33,10 @@ impl Calm {
             ball,
             serve_in: serve_in.saturating_sub(ticks),
             untouched,
-            still: if self.look.is_stuck() { still.saturating_add(ticks) } else { 0 },
-            quiet: if self.look.is_ready { 0 } else { quiet.saturating_add(ticks) },
+            still: if self.look.stuck.is_some() { still.saturating_add(ticks) } else { 0 },
+            watched,
+            quiet: if self.look.in_play { quiet.saturating_add(ticks) } else { 0 },
+            searches,
         }
     }
 }
@@ -75,16 +79,16 @@ impl Game {
             if serve_in > 0 {
                 due_in(serve_in);
             }
-            if look.is_stuck() {
-                due_in(self.ticks(super::STUCK_AFTER).saturating_sub(still));
+            if look.stuck.is_some() {
+                due_in(self.rescue_due_in(still, STUCK_AFTER));
             }
-            if !look.is_ready {
-                due_in(self.ticks(super::QUIET_AFTER).saturating_sub(quiet));
+            if look.in_play {
+                due_in(self.rescue_due_in(quiet, QUIET_AFTER));
             }
             if until > tick {
-                until = until.min(self.look_holds_until(&look));
+                until = until.min(self.look_holds_until());
             }
         }
-        self.calm = super::Calm { until, counted: tick, look };
+        self.calm = Calm { until, counted: tick, look };
     }
 }

@@ -113,8 +113,11 @@ pub enum GameEventKind {
         /// Whose.
         seat: u8,
     },
-    /// A stuck ball was served again.
-    Rescued,
+    /// Something was done about a stuck or escaped ball.
+    Rescued {
+        /// What.
+        by: Rescue,
+    },
     /// The game is over.
     Over,
     /// The table was nudged.
@@ -132,6 +135,15 @@ pub enum GameEventKind {
         /// Whose turn it is.
         seat: u8,
     },
+}
+
+/// What is done about a ball that is stuck.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Rescue {
+    /// Every kicker was fired: it may come loose.
+    Kickers,
+    /// It was served again.
+    Relaunch,
 }
 
 impl GameEventKind {

@@ -20,7 +20,7 @@ mod tilt_tests;
 use std::sync::Arc;
 
 pub use bot::Bot;
-pub use events::{GameEvent, GameEventKind};
+pub use events::{GameEvent, GameEventKind, Rescue};
 pub use input::{Action, Input, Nudge, SEATS};
 pub(crate) use state::sample_play;
 pub use state::{GameState, Phase, Play, Seat};
@@ -37,12 +37,6 @@ use crate::table::Table;
 const SERVE_PAUSE: f64 = 1.5;
 /// Seconds between the start of a game and its first ball.
 const START_PAUSE: f64 = 0.3;
-/// Seconds for which a ball may lie still, away from the plunger and with no button held, before it is served again.
-const STUCK_AFTER: f64 = 8.0;
-/// Seconds without a control or anything that counts after which a ball is served again, wherever it is.
-const QUIET_AFTER: f64 = 60.0;
-/// Slower than this share of the ball's radius a second it lies still.
-const STILL: f64 = 0.05;
 
 /// A game in progress, or a table that waits for one.
 #[derive(Debug, Clone)]
@@ -278,7 +272,8 @@ impl Game {
         self.world.clear_balls();
         self.play.tilt = Tilt::default();
         let serve_in = self.ticks(pause);
-        self.play.phase = Phase::Play { seat, ball, serve_in, untouched: true, still: 0, quiet: 0, extra: 0 };
+        self.play.phase =
+            Phase::Play { seat, ball, serve_in, untouched: true, still: 0, watched: 0, quiet: 0, searches: 0, extra: 0 };
     }
 
     fn next_turn(&mut self) {
@@ -341,7 +336,7 @@ impl Game {
             if matches!(event.kind, EventKind::Escaped) {
                 // Others that are in play go on.
                 if self.world.state().balls.is_empty() {
-                    self.serve_again();
+                    self.serve_again(None);
                 } else {
                     self.play.phase.add_ball();
                 }

@@ -40,12 +40,16 @@ pub enum Phase {
         serve_in: u32,
         /// Nothing that counts has happened to it.
         untouched: bool,
-        /// Ticks for which it has lain still.
+        /// Ticks for which the ball `watched` has lain still.
         still: u32,
-        /// Ticks since anything that counts has happened to it, or a control was worked.
+        /// The ball that is thought to be stuck, by its id.
+        watched: u32,
+        /// Ticks since anything that counts has happened, or a control was worked, with a ball in play.
         quiet: u32,
         /// Balls that rules want to have put into play besides.
         extra: u32,
+        /// How often all kickers were fired for a stuck ball in this turn.
+        searches: u8,
     },
     /// A game has ended.
     Over,

@@ -4,10 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Action, Bot, Game, GameEventKind, Input, Phase, SEATS};
+use super::{Action, Bot, Game, GameEventKind, Input, Phase, Rescue, SEATS};
 use crate::physics::TargetState;
 use crate::physics::ball::Instant;
 use crate::table::{ElementFile, Table};
+
+const RELAUNCH: GameEventKind = GameEventKind::Rescued { by: Rescue::Relaunch };
 
 fn classic() -> Arc<Table> {
     match Table::shipped("classic") {
@@ -277,11 +279,11 @@ fn a_bank_that_is_down_pays_and_rises() {
 fn a_ball_that_lies_still_is_served_again() {
     let mut game = started(1);
     wait_for_ball(&mut game);
-    assert!(!wait(&mut game, 20_000).contains(&GameEventKind::Rescued), "not from the plunger");
+    assert!(!wait(&mut game, 20_000).contains(&RELAUNCH), "not from the plunger");
     // In the corner of the floor, under the drain.
     place_ball(&mut game, DVec2::new(0.0135, 0.0135), DVec2::ZERO);
-    let events = wait(&mut game, 9000);
-    assert_eq!(events.iter().filter(|event| **event == GameEventKind::Rescued).count(), 1, "{events:?}");
+    let events = wait(&mut game, 13_000);
+    assert_eq!(events.iter().filter(|event| **event == RELAUNCH).count(), 1, "{events:?}");
     assert_eq!(wait_for_ball(&mut game), (0, 1), "the turn is still theirs");
 }
 
@@ -364,7 +366,9 @@ fn a_state_with_a_turn_of_nobody_is_refused() {
         serve_in: 0,
         untouched: false,
         still: 0,
+        watched: 0,
         quiet: 0,
+        searches: 0,
         extra: 0,
     });
     assert!(game.restore(state).is_err());
@@ -400,7 +404,7 @@ fn a_ball_that_left_the_table_is_served_again() {
     // Too fast for anything to stop it within the tick that it has.
     place_ball(&mut game, DVec2::new(0.24, 1.079), DVec2::new(0.0, 90.0));
     let events = wait(&mut game, 5);
-    assert!(events.contains(&GameEventKind::Rescued), "{events:?}");
+    assert!(events.contains(&RELAUNCH), "{events:?}");
     assert_eq!(wait_for_ball(&mut game), turn);
     assert_eq!(game.world().state().balls.len(), 1);
 }
@@ -413,6 +417,6 @@ fn a_ball_to_which_nothing_happens_for_a_minute_is_served_again() {
     // In a cradle: on the raised flipper, in the corner at its pivot. A player may keep it there, but not for ever.
     place_ball(&mut game, DVec2::new(0.165, 0.205), DVec2::ZERO);
     let events = wait(&mut game, 59_000);
-    assert!(!events.contains(&GameEventKind::Rescued));
-    assert!(wait(&mut game, 2_000).contains(&GameEventKind::Rescued));
+    assert!(!events.contains(&RELAUNCH));
+    assert!(wait(&mut game, 6_000).contains(&RELAUNCH));
 }

@@ -135,3 +135,7 @@ pub const POLISH_STEP: f64 = 1e-6;
 /// Share of the impacts within a tick that are worth following after which no bounce is left in those with a moving surface or
 /// another ball: a ball between a rising flipper and a wall is pushed, not hammered.
 pub const PLASTIC_SHARE: u32 = 4;
+
+/// How far from a kicker, in ball radii, a ball lies at the most that its coil kicks when all of them are fired: the rubber gives
+/// that much. Smaller: a ball that rests a hair's breadth away stays there. Larger: one that lies beside it is kicked.
+pub const KICKER_REACH: f64 = 0.05;

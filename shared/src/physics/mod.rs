@@ -12,6 +12,7 @@ mod follow;
 mod friction;
 pub mod hinge;
 pub mod impact;
+mod kickers;
 pub mod magnet;
 mod meetings;
 pub mod motion;

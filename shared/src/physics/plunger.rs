@@ -110,12 +110,11 @@ impl PlungerSpec {
         if (0.0..=self.width).contains(&along) { offset.dot(self.normal) + pull } else { f64::INFINITY }
     }
 
-    /// Metres, at the least, from a point to the strip in front of and behind the face at rest, or to the face itself: a
-    /// point within the strip is as far away as from the face.
-    pub fn way_to_strip(&self, point: DVec2) -> f64 {
+    /// No more metres than from a point to the places that the face can take; 0 or less between them.
+    pub fn way_to_stroke(&self, point: DVec2) -> f64 {
         let offset = point - self.from;
-        let along = offset.dot(self.along);
-        let across = offset.dot(self.normal).abs();
-        [-along, along - self.width].into_iter().fold(across, |most, way| if way > most { way } else { most })
+        let (along, across) = (offset.dot(self.along), offset.dot(self.normal));
+        let ways = [-along, along - self.width, -across - self.stroke];
+        ways.into_iter().fold(across, |most, way| if way > most { way } else { most })
     }
 }

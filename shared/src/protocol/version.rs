@@ -6,7 +6,7 @@ use thiserror::Error;
 
 use super::frame::encode;
 use super::message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome};
-use crate::game::{Action, GameEvent, GameEventKind, GameState, Nudge, Phase};
+use crate::game::{Action, GameEvent, GameEventKind, GameState, Nudge, Phase, Rescue};
 use crate::math::Digest;
 use crate::physics::ball::{Ball, Flight, Instant, Slide, Support};
 use crate::physics::cabinet::CabinetState;
@@ -215,13 +215,15 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::Served { seat: 0, ball: 1 },
         GameEventKind::Added { seat: 0 },
         GameEventKind::Lost { seat: 0 },
-        GameEventKind::Rescued,
+        GameEventKind::Rescued { by: Rescue::Kickers },
+        GameEventKind::Rescued { by: Rescue::Relaunch },
         GameEventKind::Over,
         GameEventKind::Nudged { nudge: Nudge::Forward },
         GameEventKind::Warned { seat: 1 },
         GameEventKind::Tilted { seat: 1 },
     ];
-    let phase = Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, quiet: 5, extra: 6 };
+    let phase =
+        Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, watched: 7, quiet: 5, searches: 1, extra: 6 };
     let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
     Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
 }
