@@ -188,6 +188,11 @@ impl Bot {
 /// In how many seconds from now the ball, seen 200 ms ago, will be worth a flip: when it falls onto the flipper, or
 /// rolls along it (or along the lane that leads to it) to `target` metres from the pivot. `None` if it won't soon.
 fn arrival(spec: &FlipperSpec, gravity: DVec2, radius: f64, seen: Sight, target: f64) -> Option<f64> {
+    // Too far away to come near it in time, whatever it does.
+    let comes = (seen.velocity.length() + 0.5 * gravity.length() * (LATENCY + FORESIGHT)) * (LATENCY + FORESIGHT);
+    if (seen.position - spec.pivot).length() > 1.01 * (spec.length + spec.base_radius + 4.0 * radius + comes) {
+        return None;
+    }
     let axis = spec.direction(0.0);
     let up = if axis.perp().y > 0.0 { axis.perp() } else { -axis.perp() };
     let place = |p: DVec2| ((p - spec.pivot).dot(axis), (p - spec.pivot).dot(up) - radius - spec.base_radius);
