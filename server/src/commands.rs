@@ -130,7 +130,7 @@ pub(crate) fn measure(arguments: &Measure) -> Result<(), String> {
     print(&measure::front::sentence(&outcomes, &problem, &accuracy)?)
 }
 
-fn write(path: &Path, text: &str) -> Result<(), String> {
+pub(crate) fn write(path: &Path, text: &str) -> Result<(), String> {
     std::fs::write(path, text).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
@@ -184,7 +184,7 @@ fn create(path: &Path) -> Result<Box<dyn Write>, String> {
 }
 
 /// Prints a line.
-fn print(line: &str) -> Result<(), String> {
+pub(crate) fn print(line: &str) -> Result<(), String> {
     match writeln!(io::stdout(), "{line}") {
         // Whoever reads has enough.
         Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),

@@ -1,6 +1,7 @@
 //! The headless server's command line: `starball-server` serves, its subcommands play without network.
 
 mod commands;
+mod feel;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -36,6 +37,9 @@ enum Command {
     /// Checks the physics at its extremes with each motion model and prints what passes and what the limits are, as a table in
     /// Markdown. The exit status tells whether all is as stated.
     Extremes(Extremes),
+    /// Plays the drills that players know, and motions that have a closed form, and prints how they come out and what a real
+    /// machine sets for them, as a table in Markdown. The exit status tells whether all is as stated.
+    Feel(Feel),
     /// Measures what each motion model and step size costs on a table, and how far off it is, against a reference with twice
     /// the digits of f64; tells which settings are worth having.
     Measure(Measure),
@@ -83,6 +87,16 @@ struct Extremes {
     /// Plays so many random shots on Classic besides, exactly and with flippers moving: none may be lost.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=1_000_000_000))]
     shots: u64,
+}
+
+#[derive(Debug, Args)]
+struct Feel {
+    /// Writes every figure as JSON.
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Draws live-catch.svg and aim.svg into this folder.
+    #[arg(long, value_name = "FOLDER")]
+    svg: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -178,6 +192,7 @@ fn main() -> ExitCode {
         Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
         Some(Command::Games(arguments)) => commands::games(&arguments),
         Some(Command::Extremes(arguments)) => commands::extremes(arguments.shots),
+        Some(Command::Feel(arguments)) => feel::feel(&arguments),
         Some(Command::Measure(arguments)) => commands::measure(&arguments),
         None => serve(&arguments.serve),
     };
