@@ -4,6 +4,7 @@
 //! Where a model cannot reach a goal, the list says so: the figure that it keeps to instead, and why. An outcome that is
 //! neither is a failure: the unit tests fail, and so does `starball-server extremes`.
 
+mod account;
 mod cases;
 mod energy;
 mod known;

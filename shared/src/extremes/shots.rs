@@ -6,15 +6,18 @@
 //! radius is where a ball would be taken to be on the flipper's other side.
 
 use core::ops::Range;
+use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::cases::classic;
+use super::account::Account;
+use super::cases::{balls, classic};
 use super::overlap::{Obstacles, deepest_overlap};
 use super::{Check, known};
 use crate::math::{Rng, direction};
 use crate::physics::constants::DEEPEST_OVERLAP;
 use crate::physics::motion::Motion;
+use crate::physics::needs::Needs;
 use crate::physics::{EventKind, World};
 use crate::table::Table;
 
@@ -22,6 +25,10 @@ use crate::table::Table;
 const TICKS: u32 = 150;
 /// Fastest shot, m/s.
 pub const FASTEST: f64 = 100.0;
+/// Energy that is rounding, J: a ball at 100 m/s has 400 J.
+const MOST_EXCESS: f64 = 1e-9;
+/// Balls of a shot at once, at the most.
+pub const MOST_BALLS: u64 = 5;
 /// Deepest overlap with which a ball still finds back, m: half the radius of Classic's ball.
 const DEEPEST: f64 = DEEPEST_OVERLAP * 0.0135;
 
@@ -39,6 +46,20 @@ pub(super) const CHECKS: &[Check] = &[
         goal: 1e-3,
         known: &[known::tunnels(0.03)],
         measure: deepest,
+    },
+    Check {
+        name: "random shots with 1 to 5 balls: none lost",
+        unit: "of 1000",
+        goal: 0.0,
+        known: &[known::tunnels(600.0)],
+        measure: crowd_lost,
+    },
+    Check {
+        name: "random shots with 1 to 5 balls: energy beyond what was given",
+        unit: "J",
+        goal: MOST_EXCESS,
+        known: &[],
+        measure: excess,
     },
 ];
 
@@ -59,6 +80,12 @@ pub struct Shots {
     pub not_finite: u64,
     /// The deepest overlap at the end of any tick, m; negative infinity: nothing was near.
     pub deepest: f64,
+    /// The most energy at the end of any tick beyond what there was at the start and what coils, springs and kickers gave, J.
+    pub excess: f64,
+    /// The most that was won in any tick beyond what was given in it, J.
+    pub won: f64,
+    /// Number and tick of that.
+    pub richest: (u64, u64),
     /// Number and tick of the first shot that was lost; if none was, of the deepest overlap.
     pub worst: (u64, u64),
 }
@@ -69,9 +96,9 @@ impl Shots {
         self.escaped + self.passed_through + self.not_finite
     }
 
-    /// Whether none was lost, or nearly.
+    /// Whether none was lost, or nearly, and no energy came from nowhere.
     pub fn is_as_promised(&self) -> bool {
-        self.lost() == 0 && self.deepest < DEEPEST
+        self.lost() == 0 && self.deepest < DEEPEST && self.excess < MOST_EXCESS
     }
 
     /// Both together.
@@ -87,58 +114,89 @@ impl Shots {
         self.passed_through += other.passed_through;
         self.not_finite += other.not_finite;
         self.deepest = if other.deepest > self.deepest { other.deepest } else { self.deepest };
+        self.excess = if other.excess > self.excess { other.excess } else { self.excess };
+        if other.won > self.won {
+            (self.won, self.richest) = (other.won, other.richest);
+        }
         self
     }
 }
 
-/// Plays those shots of all that follow from `seed`, each at up to `fastest` m/s. Which ones are played together, or in
-/// which order, changes none.
-pub fn shots(numbers: Range<u64>, seed: u64, fastest: f64, motion: Motion) -> Shots {
-    let table = classic(motion);
+/// Which shots are played.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Shooting {
+    /// All of them follow from it.
+    pub seed: u64,
+    /// m/s.
+    pub fastest: f64,
+    /// From 1 to so many at once, which meet each other.
+    pub most_balls: u64,
+    /// How impacts are found.
+    pub motion: Motion,
+}
+
+/// Plays those of all shots. Which ones are played together, or in which order, changes none.
+pub fn shots(numbers: Range<u64>, shooting: &Shooting) -> Shots {
+    let mut table = classic(shooting.motion);
     let obstacles = Obstacles::of(&table);
-    let mut sum = Shots { deepest: f64::NEG_INFINITY, ..Shots::default() };
-    for number in numbers {
-        let shot = Shot::new(&table, &obstacles, number, seed, fastest);
-        sum = sum.joined(shot.play(&obstacles));
+    if shooting.most_balls > 1 {
+        let scene = (*table.scene).clone();
+        let needs = Needs { ball_ball: true, ..scene.needs };
+        table.scene = Arc::new(scene.with_needs(needs));
     }
-    sum
+    let nothing = Shots { deepest: f64::NEG_INFINITY, excess: f64::NEG_INFINITY, ..Shots::default() };
+    numbers.fold(nothing, |sum, number| {
+        let shot = Shot::new(&table, &obstacles, number, shooting);
+        sum.joined(shot.play(&obstacles))
+    })
 }
 
 struct Shot {
     number: u64,
     rng: Rng,
     world: World,
-    start: DVec2,
+    /// Of each ball, by its id.
+    before: Vec<DVec2>,
 }
 
 impl Shot {
-    fn new(table: &Table, obstacles: &Obstacles, number: u64, seed: u64, fastest: f64) -> Self {
-        let mut rng = Rng::new(Rng::new(seed).bits().wrapping_add(Rng::new(number).bits()));
+    fn new(table: &Table, obstacles: &Obstacles, number: u64, shooting: &Shooting) -> Self {
+        let mut rng = Rng::new(Rng::new(shooting.seed).bits().wrapping_add(Rng::new(number).bits()));
         let mut world = World::new(table.scene.clone());
-        let start = loop {
-            let place = DVec2::new(rng.between(0.0, 0.514), rng.between(0.02, 1.067));
-            let under_the_arch = place.y < 0.81 || (place - DVec2::new(0.257, 0.81)).length() < 0.24;
-            if under_the_arch && deepest_overlap(&world, place) < 0.0 && !obstacles.is_inside(place) {
-                break place;
+        let balls = if shooting.most_balls > 1 { 1 + rng.bits() % shooting.most_balls } else { 1 };
+        let mut before: Vec<DVec2> = Vec::new();
+        for _ in 0..balls {
+            let start = loop {
+                let place = DVec2::new(rng.between(0.0, 0.514), rng.between(0.02, 1.067));
+                let under_the_arch = place.y < 0.81 || (place - DVec2::new(0.257, 0.81)).length() < 0.24;
+                let is_alone = before.iter().all(|other| (*other - place).length() > 2.0 * table.scene.radius(0));
+                if under_the_arch && is_alone && deepest_overlap(&world, place) < 0.0 && !obstacles.is_inside(place) {
+                    break place;
+                }
+            };
+            let velocity = direction(rng.between(0.0, core::f64::consts::TAU)) * rng.between(0.0, shooting.fastest);
+            world.launch(0, start, velocity);
+            before.push(start);
+            let mut state = world.state().clone();
+            if let Some(ball) = state.balls.last_mut() {
+                ball.spin = rng.between(-200.0, 200.0);
             }
-        };
-        let velocity = direction(rng.between(0.0, core::f64::consts::TAU)) * rng.between(0.0, fastest);
-        world.launch(0, start, velocity);
-        let mut state = world.state().clone();
-        state.balls[0].spin = rng.between(-200.0, 200.0);
-        // A state that differs in a finite spin only is accepted.
-        let _ = world.restore(state);
-        Self { number, rng, world, start }
+            // A state that differs in a finite spin only is accepted.
+            let _ = world.restore(state);
+        }
+        Self { number, rng, world, before }
     }
 
     fn play(mut self, obstacles: &Obstacles) -> Shots {
-        let mut told = Shots { shots: 1, deepest: f64::NEG_INFINITY, ..Shots::default() };
-        let mut before = self.start;
+        let nothing = Shots { deepest: f64::NEG_INFINITY, excess: f64::NEG_INFINITY, ..Shots::default() };
+        let mut told = Shots { shots: 1, ..nothing };
+        let mut account = Account::new(&self.world);
         for _ in 0..TICKS {
             if self.rng.unit() < 0.04 {
                 let right = self.rng.unit() < 0.5;
                 self.world.press(right, self.rng.unit() < 0.6);
             }
+            account.open(&self.world);
             for event in self.world.step() {
                 match event.kind {
                     EventKind::Escaped => told.escaped += 1,
@@ -147,26 +205,45 @@ impl Shot {
                     _ => told.impacts += 1,
                 }
             }
-            let Some((position, velocity, spin)) = super::cases::balls(&self.world).next() else { break };
-            if !(position.is_finite() && velocity.is_finite() && spin.is_finite()) {
-                told.not_finite = 1;
-            } else if obstacles.is_inside(position) || obstacles.crossed(before, position).is_some() {
-                told.passed_through = 1;
-            }
-            if told.lost() > 0 {
+            account.close(&self.world);
+            self.judge(obstacles, &account, &mut told);
+            if told.lost() > 0 || self.world.state().balls.is_empty() {
                 break;
             }
-            let overlap = deepest_overlap(&self.world, position);
-            if overlap > told.deepest {
-                told.deepest = overlap;
-                told.worst = (self.number, self.world.state().tick);
-            }
-            before = position;
         }
         if told.lost() > 0 {
             told.worst = (self.number, self.world.state().tick);
         }
         told
+    }
+
+    /// Where the balls are after a tick.
+    fn judge(&mut self, obstacles: &Obstacles, account: &Account, told: &mut Shots) {
+        let places: Vec<DVec2> = balls(&self.world).map(|(position, ..)| position).collect();
+        for (place, (position, velocity, spin)) in balls(&self.world).enumerate() {
+            let before = &mut self.before[self.world.state().balls[place].id as usize];
+            if !(position.is_finite() && velocity.is_finite() && spin.is_finite()) {
+                told.not_finite = 1;
+            } else if obstacles.is_inside(position) || obstacles.crossed(*before, position).is_some() {
+                told.passed_through = 1;
+            }
+            *before = position;
+            let between =
+                places[..place].iter().map(|other| 2.0 * self.world.scene().radius(0) - (*other - position).length());
+            for overlap in between.chain([deepest_overlap(&self.world, position)]) {
+                if overlap > told.deepest {
+                    told.deepest = overlap;
+                    told.worst = (self.number, self.world.state().tick);
+                }
+            }
+        }
+        let excess = account.excess(&self.world);
+        told.excess = if excess > told.excess { excess } else { told.excess };
+        let won = account.won(&self.world);
+        if won > told.won {
+            told.won = won;
+            told.richest = (self.number, self.world.state().tick);
+        }
     }
 }
 
@@ -181,13 +258,31 @@ fn count(motion: Motion) -> u64 {
 
 /// Balls lost, of a thousand.
 fn lost(motion: Motion) -> Result<f64, String> {
-    let told = shots(0..count(motion), 1, FASTEST, motion);
+    let told = shots(0..count(motion), &Shooting { seed: 1, fastest: FASTEST, most_balls: 1, motion });
     if told.not_finite > 0 {
         return Err(format!("a number of shot {} is not finite", told.worst.0));
     }
     Ok(1000.0 * told.lost() as f64 / told.shots as f64)
 }
 
+/// Shots of up to 5 balls.
+fn crowds(motion: Motion) -> Shots {
+    shots(0..count(motion), &Shooting { seed: 3, fastest: FASTEST, most_balls: MOST_BALLS, motion })
+}
+
+/// Shots of which a ball is lost, of a thousand.
+fn crowd_lost(motion: Motion) -> Result<f64, String> {
+    let told = crowds(motion);
+    if told.not_finite > 0 {
+        return Err(format!("a number of shot {} is not finite", told.worst.0));
+    }
+    Ok(1000.0 * told.lost() as f64 / told.shots as f64)
+}
+
+fn excess(motion: Motion) -> Result<f64, String> {
+    Ok(crowds(motion).excess)
+}
+
 fn deepest(motion: Motion) -> Result<f64, String> {
-    Ok(shots(0..count(motion) / 5, 2, FASTEST, motion).deepest)
+    Ok(shots(0..count(motion) / 5, &Shooting { seed: 2, fastest: FASTEST, most_balls: 1, motion }).deepest)
 }

@@ -65,8 +65,9 @@ fn what_is_no_number_is_refused() {
 
 #[test]
 fn shots_are_the_same_whichever_are_played_together() {
-    let all = shots::shots(0..60, 3, 50.0, Motion::Exact);
-    let parts = [40..60, 0..17, 17..40].map(|part| shots::shots(part, 3, 50.0, Motion::Exact));
+    let shooting = shots::Shooting { seed: 3, fastest: 50.0, most_balls: 5, motion: Motion::Exact };
+    let all = shots::shots(0..60, &shooting);
+    let parts = [40..60, 0..17, 17..40].map(|part| shots::shots(part, &shooting));
     let [a, b, c] = parts;
     assert_eq!(a.joined(b).joined(c), all);
 }

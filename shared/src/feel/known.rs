@@ -8,6 +8,8 @@ const GRIPS_AT_ONCE: &str =
     "A ball that comes to lie on a surface with friction rolls from that moment on, however weakly it is pressed.";
 const NO_SPIN_UP: &str = "What drives a ball outwards on a turning flipper moves its centre alone: the 2/7 that spin it up are not taken off.";
 
+const DRAGGED: &str = "A moving flipper drags a ball along its surface by friction, and is not held back by it: that work comes from nowhere.";
+
 /// Family, beginning of the figure's name, and the reason.
 const KNOWN: &[(&str, &str, &str)] = &[
     ("aim", "from the cradle: places of", HOPS),
@@ -21,6 +23,7 @@ const KNOWN: &[(&str, &str, &str)] = &[
     ("live catch", "2 m/s: window", RIGID),
     ("slope", "thrown: slips for", GRIPS_AT_ONCE),
     ("ball on a turning arm", "rolls", NO_SPIN_UP),
+    ("random shots", "energy beyond", DRAGGED),
 ];
 
 /// Why a figure is known to be out of its range; `None`: it is not.

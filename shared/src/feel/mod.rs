@@ -13,6 +13,7 @@ mod known;
 mod pair;
 mod passes;
 mod rolling;
+mod shots;
 mod stage;
 mod stroke;
 #[cfg(test)]
@@ -100,6 +101,7 @@ pub const FAMILIES: &[Family] = &[
     rolling::CREST,
     pair::PAIR,
     arm::ARM,
+    shots::SHOTS,
 ];
 
 /// A family with what was measured.
