@@ -42,6 +42,8 @@ struct Plot<'a> {
     stripe: Option<(Range<f64>, &'a str)>,
     /// Whether to draw points rather than lines, so that a jump is seen as one.
     points: bool,
+    /// Where no curve is.
+    legend: SeriesLabelPosition,
 }
 
 fn plots(folder: &Path) -> Result<(), String> {
@@ -57,6 +59,7 @@ fn plots(folder: &Path) -> Result<(), String> {
         curves: catches::SPEEDS.into_iter().map(of_speed).collect(),
         stripe: Some((stroke..stroke + 8.0, "8 ms from the end of the stroke")),
         points: false,
+        legend: SeriesLabelPosition::UpperMiddle,
     };
     write(&folder.join("live-catch.svg"), &live_catch.svg()?)?;
     let hands = [(false, "left"), (true, "right")];
@@ -74,6 +77,7 @@ fn plots(folder: &Path) -> Result<(), String> {
         curves: curves.collect(),
         stripe: None,
         points: true,
+        legend: SeriesLabelPosition::MiddleLeft,
     };
     write(&folder.join("aim.svg"), &aim.svg()?)
 }
@@ -130,7 +134,7 @@ impl Plot<'_> {
         }
         chart
             .configure_series_labels()
-            .position(SeriesLabelPosition::UpperRight)
+            .position(self.legend.clone())
             .label_font(("sans-serif", 15))
             .background_style(WHITE.mix(0.8))
             .border_style(BLACK.mix(0.3))
