@@ -77,7 +77,7 @@ fn plots(folder: &Path) -> Result<(), String> {
         curves: curves.collect(),
         stripe: None,
         points: true,
-        legend: SeriesLabelPosition::MiddleLeft,
+        legend: SeriesLabelPosition::MiddleRight,
     };
     write(&folder.join("aim.svg"), &aim.svg()?)
 }

@@ -84,8 +84,7 @@ struct Games {
 
 #[derive(Debug, Args)]
 struct Extremes {
-    /// Plays so many random shots on Classic besides, exactly and with flippers moving, and as many of several balls: none may be
-    /// lost, and no energy may come from nowhere.
+    /// Plays so many random shots on Classic besides, exactly and with flippers moving, and as many of several balls: none may be lost.
     #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u64).range(0..=1_000_000_000))]
     shots: u64,
 }
