@@ -196,14 +196,17 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
             match event.kind {
                 EventKind::Touched { element, .. }
                 | EventKind::Kicked { element, .. }
+                | EventKind::Struck { element, .. }
                 | EventKind::Felled { element, .. } => {
                     played.hits[usize::from(element)] += 1;
                     played.impacts += 1;
                 }
-                EventKind::Passed { element } => played.hits[usize::from(element)] += 1,
+                EventKind::Passed { element } | EventKind::Spun { element } | EventKind::Held { element } => {
+                    played.hits[usize::from(element)] += 1;
+                }
                 EventKind::Met { .. } => played.impacts += 1,
                 EventKind::Escaped => played.escaped += 1,
-                EventKind::Stalled { .. } | EventKind::Drained => {}
+                EventKind::Ejected { .. } | EventKind::Stalled { .. } | EventKind::Drained => {}
             }
         }
         if matches!(game.phase(), Phase::Over) {

@@ -2,7 +2,7 @@
 //!
 //! Modules in the order in which they may use each other, left to right:
 //! `math -> physics -> table -> rules -> game -> protocol`; `golden` plays games to see whether they are the same everywhere,
-//! `outline` turns a world of `physics` into lines for pictures.
+//! `outline` turns a world of `physics` into lines for pictures,
 //! `extremes` tries what the physics promises, `feel` how it plays.
 //! There is no clock, file, socket or thread in here; callers pass time and bytes. The one entry is [`game::Game::step`].
 

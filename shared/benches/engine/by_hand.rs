@@ -2,7 +2,7 @@
 //! model, no broad phase. It calls the engine's own functions of impact, and so arrives at the engine's own bits.
 
 use shared::physics::ball::{Flight, Instant};
-use shared::physics::contact::{Surface, respond};
+use shared::physics::contact::{Mobility, Surface, respond};
 use shared::physics::impact::{Search, ball_shape};
 use shared::physics::scene::{Material, Scene};
 use shared::physics::shapes::Shape;
@@ -53,7 +53,8 @@ impl ByHand {
         let (shape, material) = self.shapes[index];
         let position = self.flight.position_at(time);
         let normal = shape.normal_at(position);
-        let surface = Surface { normal, velocity: glam::DVec2::ZERO, material, inverse_mass: 0.0, kick: 0.0 };
+        let surface =
+            Surface { normal, velocity: glam::DVec2::ZERO, material, mobility: Mobility::default(), kick: 0.0 };
         let after = respond(self.flight.velocity_at(time), 0.0, self.radius, self.mass, &surface);
         let elapsed = Instant::start_of(self.tick).since(self.flight.start, self.dt);
         let start = Instant { tick: self.tick, offset: time - elapsed };

@@ -20,7 +20,7 @@ pub(super) struct Calm {
 impl Calm {
     /// The phase as it is when `tick` is about to be played.
     fn count(&self, phase: Phase, tick: u64) -> Phase {
-        let Phase::Play { seat, ball, serve_in, untouched, still, watched, quiet, searches } = phase else {
+        let Phase::Play { seat, ball, serve_in, untouched, still, watched, quiet, searches, extra } = phase else {
             return phase;
         };
         // Calm ends before any of the counters is due.
@@ -37,6 +37,7 @@ impl Calm {
             watched,
             quiet: if self.look.in_play { quiet.saturating_add(ticks) } else { 0 },
             searches,
+            extra,
         }
     }
 }
@@ -72,8 +73,12 @@ impl Game {
         let tick = self.tick();
         let mut until = self.world.quiet_until();
         if until > tick
-            && let Phase::Play { serve_in, still, quiet, .. } = self.play.phase
+            && let Phase::Play { serve_in, still, quiet, extra, .. } = self.play.phase
         {
+            // A ball that waits to be served, and a touch of the plumb bob that is not over yet, are looked after tick by tick.
+            if extra > 0 || self.play.tilt.same_touch > 0 {
+                until = tick;
+            }
             // What is due is done in a tick that is played in full.
             let mut due_in = |ticks: u32| until = until.min(tick + u64::from(ticks.saturating_sub(1)));
             if serve_in > 0 {

@@ -272,8 +272,17 @@ impl Game {
         self.world.clear_balls();
         self.play.tilt = Tilt::default();
         let serve_in = self.ticks(pause);
-        self.play.phase =
-            Phase::Play { seat, ball, serve_in, untouched: true, still: 0, watched: 0, quiet: 0, searches: 0, extra: 0 };
+        self.play.phase = Phase::Play {
+            seat,
+            ball,
+            serve_in,
+            untouched: true,
+            still: 0,
+            watched: 0,
+            quiet: 0,
+            searches: 0,
+            extra: 0,
+        };
     }
 
     fn next_turn(&mut self) {

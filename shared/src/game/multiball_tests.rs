@@ -118,7 +118,7 @@ fn a_ball_that_waits_for_what_can_no_longer_happen_is_thrown_out() {
     place(&mut game, (0.3, 0.1), (0.0, -1.0));
     let events = wait_until(&mut game, |game| game.phase() == Phase::Over);
     assert_eq!(count(&events, |event| matches!(event, GameEventKind::Ejected { .. })), 1, "{events:?}");
-    assert_eq!(count(&events, |event| matches!(event, GameEventKind::Rescued)), 0);
+    assert_eq!(count(&events, |event| matches!(event, GameEventKind::Rescued { .. })), 0);
     // Without a rule that serves it comes out at once.
     let mut game = started(&TABLE.replace(", Serve]", "]"));
     assert!(!game.table().scene.needs.ball_ball);

@@ -107,9 +107,11 @@ impl Game {
             || scene.plungers.iter().any(|plunger| in_lane(plunger.distance(0.0, position), plunger.stroke))
     }
 
-    /// Whether a player holds a ball, in the cradle of a flipper whose button is pressed. Whatever else holds balls for a while
-    /// belongs here.
+    /// Whether a player holds a ball, in the cradle of a flipper whose button is pressed, or a saucer does.
     fn is_held(&self, ball: &Ball) -> bool {
+        if ball.saucer().is_some() {
+            return true;
+        }
         let scene = &self.table.scene;
         let (position, _) = ball.at(self.now(), scene.tick_seconds);
         let beyond = CRADLE * scene.radius(ball.kind);

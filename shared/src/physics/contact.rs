@@ -19,10 +19,28 @@ pub struct Surface {
     pub velocity: DVec2,
     /// What it is made of.
     pub material: Material,
-    /// Inverse of the mass that the surface's point opposes to a push along the normal, 1/kg; 0 if it cannot move.
-    pub inverse_mass: f64,
+    /// How it gives way to a push.
+    pub mobility: Mobility,
     /// Normal speed that it adds, m/s.
     pub kick: f64,
+}
+
+/// How the point of a surface gives way to a push: inverse masses, 1/kg, 0 if it cannot move.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Mobility {
+    /// Along the normal, to a push along it.
+    pub normal: f64,
+    /// Along the surface, to a push along that.
+    pub along: f64,
+    /// Along the one, to a push along the other.
+    pub coupling: f64,
+}
+
+impl Mobility {
+    /// Of a body on an axis: lever arms of a push along the normal and along the surface, m, and its inertia, kg m^2.
+    pub fn on_axis(normal: f64, along: f64, inertia: f64) -> Self {
+        Self { normal: normal * normal / inertia, along: along * along / inertia, coupling: normal * along / inertia }
+    }
 }
 
 /// What an impact did.
@@ -34,6 +52,8 @@ pub struct Response {
     pub spin: f64,
     /// Push on the ball along the normal, N s; the surface got the opposite.
     pub impulse: f64,
+    /// Push on the ball along the surface ([`tangent`] of its normal), N s, likewise.
+    pub drag: f64,
 }
 
 /// The impulse that ends an approach: restitution along the normal, Coulomb friction along the surface, up to the
@@ -45,19 +65,51 @@ pub fn respond(velocity: DVec2, spin: f64, radius: f64, mass: f64, surface: &Sur
     let approach = -relative.dot(surface.normal);
     let approach = if approach > 0.0 { approach } else { 0.0 };
     let restitution = surface.material.restitution_at(approach);
-    let impulse = ((1.0 + restitution) * approach + surface.kick) / (1.0 / mass + surface.inverse_mass);
-    let pushed = impulse / mass;
-
     let slip = relative.dot(along) + spin * radius;
-    let most = surface.material.friction * pushed;
-    let change = -(SLIP_SHARE * slip).clamp(-most, most);
+    let (impulse, drag) = if surface.mobility == Mobility::default() {
+        let impulse = ((1.0 + restitution) * approach + surface.kick) * mass;
+        let most = surface.material.friction * impulse;
+        (impulse, -(SLIP_SHARE * slip * mass).clamp(-most, most))
+    } else {
+        let both = |restitution: f64| push_movable(approach, slip, mass, restitution, surface);
+        let (impulse, drag, gained) = both(restitution);
+        // Restitution by speed alone can make energy of friction (Kane 1984): then none of it is given back.
+        if gained > 0.0 && surface.kick == 0.0 {
+            let (impulse, drag, _) = both(0.0);
+            (impulse, drag)
+        } else {
+            (impulse, drag)
+        }
+    };
+    let (pushed, change) = (impulse / mass, drag / mass);
     let lost = (1.0 - surface.material.tangential) * relative.dot(along);
     let mut after = velocity + surface.normal * pushed + along * (change - lost);
-    if restitution == 0.0 && surface.kick == 0.0 && surface.inverse_mass == 0.0 {
+    if restitution == 0.0 && surface.kick == 0.0 && surface.mobility == Mobility::default() {
         // Nothing is left of the approach, not even its rounding: that would be met again.
         after -= surface.normal * (after - surface.velocity).dot(surface.normal);
     }
-    Response { velocity: after, spin: spin + change / (SPHERE_INERTIA * radius), impulse }
+    Response { velocity: after, spin: spin + change / (SPHERE_INERTIA * radius), impulse, drag }
+}
+
+/// The pushes along the normal and along the surface between a ball and a surface that gives way, N s, and the energy that both
+/// together gained by them, J. A push along one moves the surface along the other, too: grip asks for both at once.
+fn push_movable(approach: f64, slip: f64, mass: f64, restitution: f64, surface: &Surface) -> (f64, f64, f64) {
+    let Mobility { normal, along, coupling } = surface.mobility;
+    let (normal, along) = (1.0 / mass + normal, 1.0 / (SLIP_SHARE * mass) + along);
+    let wanted = (1.0 + restitution) * approach + surface.kick;
+    let friction = surface.material.friction;
+    let determinant = normal * along - coupling * coupling;
+    let (mut impulse, mut drag) =
+        ((wanted * along + coupling * slip) / determinant, -(slip * normal + coupling * wanted) / determinant);
+    if impulse < 0.0 || drag.abs() > friction * impulse {
+        // It slips all the way: friction against it, as strong as the load lets it be.
+        let against = if slip > 0.0 { -friction } else { friction };
+        let slipping = normal + coupling * against;
+        impulse = if slipping > 0.0 { wanted / slipping } else { wanted / normal };
+        drag = against * impulse;
+    }
+    let (parted, slid) = (normal * impulse + coupling * drag, coupling * impulse + along * drag);
+    (impulse, drag, impulse * (0.5 * parted - approach) + drag * (0.5 * slid + slip))
 }
 
 /// A ball that meets another.
@@ -302,7 +354,7 @@ mod tests {
     const RUBBER: Material = Material { restitution: 0.8, falloff: 0.3, friction: 0.6, tangential: 1.0 };
 
     fn floor(material: Material) -> Surface {
-        Surface { normal: DVec2::Y, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick: 0.0 }
+        Surface { normal: DVec2::Y, velocity: DVec2::ZERO, material, mobility: Mobility::default(), kick: 0.0 }
     }
 
     #[test]
@@ -330,8 +382,44 @@ mod tests {
 
     #[test]
     fn a_movable_surface_shares_the_impulse() {
-        let surface = Surface { inverse_mass: 1.0 / 0.08, ..floor(Material::bouncing(1.0)) };
+        let surface = Surface {
+            mobility: Mobility { normal: 1.0 / 0.08, ..Mobility::default() },
+            ..floor(Material::bouncing(1.0))
+        };
         let after = respond(DVec2::new(0.0, -1.0), 0.0, 0.0135, 0.08, &surface);
         assert!(after.velocity.length() < 1e-15, "equal masses swap velocities");
+    }
+
+    /// Broke: a flipper felt nothing of the friction that dragged a ball along it, and the two won a quarter of what a coil gives.
+    #[test]
+    fn a_surface_on_an_axis_and_a_ball_together_never_gain_energy() {
+        let mut rng = crate::math::Rng::new(9);
+        let (radius, mass, inertia) = (0.0135, 0.08, 1.07e-4);
+        for _ in 0..10_000 {
+            let normal = crate::math::direction(rng.between(0.0, 6.28));
+            let arm = DVec2::new(rng.between(-0.07, 0.07), rng.between(-0.07, 0.07));
+            let (velocity, spin) =
+                (DVec2::new(rng.between(-5.0, 5.0), rng.between(-5.0, 5.0)), rng.between(-300.0, 300.0));
+            let turn = rng.between(-100.0, 100.0);
+            let levers = (arm.perp_dot(normal), arm.perp_dot(tangent(normal)));
+            let surface = Surface {
+                normal,
+                velocity: arm.perp() * turn,
+                material: RUBBER,
+                mobility: Mobility::on_axis(levers.0, levers.1, inertia),
+                kick: 0.0,
+            };
+            if (velocity - surface.velocity).dot(normal) >= 0.0 {
+                continue;
+            }
+            let after = respond(velocity, spin, radius, mass, &surface);
+            let turned = turn - (after.impulse * levers.0 + after.drag * levers.1) / inertia;
+            let energy = |velocity: DVec2, spin: f64, turn: f64| {
+                let rim = spin * radius;
+                mass * (0.5 * velocity.length_squared() + 0.2 * rim * rim) + 0.5 * inertia * turn * turn
+            };
+            let (before, then) = (energy(velocity, spin, turn), energy(after.velocity, after.spin, turned));
+            assert!(then <= before * (1.0 + 1e-13), "{before} J become {then} J");
+        }
     }
 }

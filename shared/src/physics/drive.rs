@@ -3,7 +3,9 @@
 use super::ball::{Ball, Instant, Support};
 use super::constants::PIECE_ANGLE;
 use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
+use super::movers::lever;
 use super::world::World;
+use crate::math::tangent;
 
 impl World {
     /// 1. Decides which flippers and plungers move in this tick.
@@ -87,10 +89,15 @@ impl World {
             let carried = spec.carried(flipper.swing, flipper.speed, center, velocity, scene.radius(ball.kind));
             let mass = scene.mass(ball.kind);
             // What the flipper must push the ball with, beyond the change of its own turn.
-            let push = carried.acceleration - self.pull_at(ball, center, velocity, 0.0).dot(carried.normal);
+            let pull = self.pull_at(ball, center, velocity, 0.0);
+            let push = carried.acceleration - pull.dot(carried.normal);
             if carried.lever * drive / spec.inertia + push > 0.0 {
                 torque -= mass * carried.lever * push;
                 inertia += mass * carried.lever * carried.lever;
+                // Friction, as it is in the ball's present piece of flight.
+                let along = tangent(carried.normal);
+                let rubbed = (ball.flight.acceleration - pull).dot(along);
+                torque -= mass * rubbed * lever(spec, center - carried.normal * scene.radius(ball.kind), along);
             }
         }
         torque / inertia

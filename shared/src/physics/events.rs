@@ -4,13 +4,14 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::constants::{MOST_SPEED, PLASTIC_SHARE};
-use super::contact::{Moment, Response, Settled, Surface, respond, settle};
+use super::contact::{Mobility, Moment, Response, Settled, Surface, respond, settle};
 use super::hinge::At;
 use super::motion::{Next, Span};
 use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact, lever};
 use super::scene::{Collider, Presence, Role};
 use super::state::TargetState;
 use super::world::{Event, EventKind, World};
+use crate::math::tangent;
 
 /// One thing that happens within a tick.
 #[derive(Debug, Clone, Copy)]
@@ -234,7 +235,7 @@ impl World {
             _ => {}
         }
         self.refresh_spin(ball, offset, position, velocity);
-        let surface = Surface { normal, velocity: DVec2::ZERO, material, inverse_mass: 0.0, kick };
+        let surface = Surface { normal, velocity: DVec2::ZERO, material, mobility: Mobility::default(), kick };
         let (radius, mass, spin) = (self.radius(ball), self.mass(ball), self.state.balls[ball].spin);
         if let Some(gives_way) = self.gives_way(presence, position, normal, radius) {
             let after = respond(velocity, spin, radius, mass, &gives_way.surface(surface));
@@ -310,12 +311,12 @@ impl World {
         }
         let radius = self.radius(ball);
         let surface = flipper.surface(offset, position, normal, radius);
-        let lever = lever(flipper.spec, position - normal * radius, normal);
+        let levers = [normal, tangent(normal)].map(|push| lever(flipper.spec, position - normal * radius, push));
         let (mut motion, element, inertia) = (flipper.motion, flipper.spec.element, flipper.spec.inertia);
         let speed = (surface.velocity - velocity).dot(normal);
         let after = self.push_by(ball, offset, position, velocity, &surface);
         motion.swing = motion.swing_at(offset);
-        motion.speed = motion.speed_at(offset) - after.impulse * lever / inertia;
+        motion.speed = motion.speed_at(offset) - (after.impulse * levers[0] + after.drag * levers[1]) / inertia;
         motion.from = offset;
         self.flipper_motions[index] = Some(motion);
         let flipper = &mut self.state.flippers[index];

@@ -38,7 +38,7 @@ impl Rub {
     /// to go on rolling, and slips again if there is not so much.
     pub(super) fn against(&self, press: f64) -> Friction {
         let most = self.friction * press;
-        if !(most > 0.0) {
+        if most.is_nan() || most <= 0.0 {
             return Friction::default();
         }
         let slip = self.speed + self.spin * self.radius;

@@ -7,7 +7,7 @@ use super::world::World;
 
 impl World {
     /// Fires the coil of every bumper and slingshot, as if each had been hit: a ball that touches one, at whatever speed, is
-    /// kicked off along its surface's normal. Whatever else holds balls is to let go of them here. How many balls were kicked.
+    /// kicked off along its surface's normal; and saucers throw out what they hold. How many balls were kicked.
     ///
     /// It is no impact: nothing is told as [`super::EventKind::Kicked`], and nobody makes points of it.
     pub fn fire_kickers(&mut self) -> usize {
@@ -15,6 +15,11 @@ impl World {
         let mut kicked = 0;
         for ball in 0..self.state.balls.len() {
             let subject = self.state.balls[ball];
+            if let Some(saucer) = subject.saucer() {
+                self.kick(saucer);
+                kicked += 1;
+                continue;
+            }
             let (position, velocity) = subject.at(now, self.scene.tick_seconds);
             let within = self.radius(ball) * (1.0 + KICKER_REACH);
             let fired = self.scene.colliders.iter().fold(velocity, |velocity, collider| match collider.role {
@@ -29,7 +34,7 @@ impl World {
             });
             if fired != velocity {
                 kicked += 1;
-                self.refresh_spin(ball, position, velocity);
+                self.refresh_spin(ball, 0.0, position, velocity);
                 self.start_flight(ball, 0.0, position, fired, None, None);
             }
         }

@@ -4,10 +4,11 @@ use glam::DVec2;
 
 use super::ball::Flight;
 use super::constants::{GRAZE, MOVER_HALVINGS, MOVER_PARTS};
-use super::contact::Surface;
+use super::contact::{Mobility, Surface};
 use super::flipper::{FlipperMotion, FlipperSpec, Nearest};
 use super::plunger::{PlungerMotion, PlungerSpec};
 use crate::math::roots::quadratic;
+use crate::math::tangent;
 
 /// A ball's flight and where in it the current tick begins.
 #[derive(Debug, Clone, Copy)]
@@ -97,12 +98,12 @@ impl Mover for MovingFlipper<'_> {
 
     fn surface(&self, offset: f64, center: DVec2, normal: DVec2, radius: f64) -> Surface {
         let contact = center - normal * radius;
-        let lever = lever(self.spec, contact, normal);
+        let levers = [normal, tangent(normal)].map(|push| lever(self.spec, contact, push));
         Surface {
             normal,
             velocity: self.velocity(offset, contact),
             material: self.spec.material,
-            inverse_mass: lever * lever / self.spec.inertia,
+            mobility: Mobility::on_axis(levers[0], levers[1], self.spec.inertia),
             kick: 0.0,
         }
     }
@@ -136,7 +137,7 @@ impl Mover for MovingPlunger<'_> {
             normal,
             velocity: self.velocity(offset, center),
             material: self.spec.material,
-            inverse_mass: if self.held { 0.0 } else { 1.0 / self.spec.mass },
+            mobility: Mobility { normal: if self.held { 0.0 } else { 1.0 / self.spec.mass }, ..Mobility::default() },
             kick: 0.0,
         }
     }

@@ -3,33 +3,36 @@
 use glam::DVec2;
 
 use super::constants::FLIPPER_STOP_SPEED;
-use super::contact::{Response, Surface};
+use super::contact::{Mobility, Response, Surface};
 use super::flipper::FlipperRest;
 use super::movers::lever;
 use super::scene::Presence;
 use super::world::World;
+use crate::math::tangent;
 
 /// A flipper that can give way: it lies at a stop, and is pushed away from it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct GivesWay {
     /// Place in the scene.
     pub(super) flipper: usize,
-    /// Of the push on the ball, in the sense of the swing, m.
-    lever: f64,
+    /// Of the push on the ball along the normal and along the surface, in the sense of the swing, m.
+    levers: [f64; 2],
     /// kg m^2.
     inertia: f64,
+    /// Sign of a speed away from the stop.
+    away: f64,
 }
 
 impl GivesWay {
     /// The surface, as movable as the flipper is.
     pub(super) fn surface(&self, surface: Surface) -> Surface {
-        Surface { inverse_mass: self.lever * self.lever / self.inertia, ..surface }
+        Surface { mobility: Mobility::on_axis(self.levers[0], self.levers[1], self.inertia), ..surface }
     }
 
     /// The speed that an impact gives the flipper, rad/s; `None` if it is so slow that coil or spring just hold it.
     pub(super) fn speed_after(&self, after: &Response) -> Option<f64> {
-        let speed = -after.impulse * self.lever / self.inertia;
-        (speed.abs() >= FLIPPER_STOP_SPEED).then_some(speed)
+        let speed = -(after.impulse * self.levers[0] + after.drag * self.levers[1]) / self.inertia;
+        (speed * self.away >= FLIPPER_STOP_SPEED).then_some(speed)
     }
 }
 
@@ -48,9 +51,14 @@ impl World {
             _ => return None,
         };
         let spec = &self.scene.flippers[flipper];
-        let lever = lever(spec, position - normal * radius, normal);
+        let levers = [normal, tangent(normal)].map(|push| lever(spec, position - normal * radius, push));
         // The flipper gets the opposite of the push on the ball: down from the upper stop, up from the lower one.
-        (if raised { lever > 0.0 } else { lever < 0.0 }).then_some(GivesWay { flipper, lever, inertia: spec.inertia })
+        (if raised { levers[0] > 0.0 } else { levers[0] < 0.0 }).then_some(GivesWay {
+            flipper,
+            levers,
+            inertia: spec.inertia,
+            away: if raised { -1.0 } else { 1.0 },
+        })
     }
 
     /// A flipper leaves its stop at that speed, rad/s; coil or spring will bring it back.

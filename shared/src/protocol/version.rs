@@ -222,8 +222,17 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::Warned { seat: 1 },
         GameEventKind::Tilted { seat: 1 },
     ];
-    let phase =
-        Phase::Play { seat: 1, ball: 2, serve_in: 3, untouched: true, still: 4, watched: 7, quiet: 5, searches: 1, extra: 6 };
+    let phase = Phase::Play {
+        seat: 1,
+        ball: 2,
+        serve_in: 3,
+        untouched: true,
+        still: 4,
+        watched: 7,
+        quiet: 5,
+        searches: 1,
+        extra: 6,
+    };
     let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
     Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
 }

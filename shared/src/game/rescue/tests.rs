@@ -74,6 +74,7 @@ fn with_balls(table: Arc<Table>, places: &[DVec2]) -> Game {
         flight: Flight { start, position, velocity: DVec2::ZERO, acceleration },
         spin: 0.0,
         support: Support::None,
+        slide: None,
         past: None,
     };
     state.world.balls = places.iter().enumerate().map(ball).collect();

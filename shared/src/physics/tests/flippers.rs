@@ -5,6 +5,7 @@ use glam::DVec2;
 use super::{at_rest, ball, classic, deepest_overlap, launch, run, support, world_with};
 use crate::math::digest_of;
 use crate::physics::ball::{Flight, Instant, Support};
+use crate::physics::contact::Mobility;
 use crate::physics::flipper::{FlipperMotion, FlipperRest, FlipperSpec, FlipperState};
 use crate::physics::movers::{BallInTick, Mover, MoverImpact, MovingFlipper, first_impact};
 use crate::physics::world::World;
@@ -129,7 +130,9 @@ fn impacts_on_left_and_right_are_mirror_images_bit_for_bit() {
         if let (Some((at, normal, surface)), Some((other_at, other_normal, other))) = (a, b) {
             hits += 1;
             assert_eq!((at, normal), (other_at, mirror(other_normal)));
-            assert_eq!((surface.velocity, surface.inverse_mass), (mirror(other.velocity), other.inverse_mass));
+            // The way along a surface is its normal turned clockwise: mirrored, it points the other way.
+            let mirrored_mobility = Mobility { coupling: -other.mobility.coupling, ..other.mobility };
+            assert_eq!((surface.velocity, surface.mobility), (mirror(other.velocity), mirrored_mobility));
         }
     }
     assert!(hits > 100, "only {hits} of 2000 balls met the flipper");
