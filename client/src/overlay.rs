@@ -142,7 +142,7 @@ impl Overlay<'_> {
         let lies = if on.is_empty() { "FLIES".to_owned() } else { format!("LIES ON {}", on.join(" AND ")) };
         self.word(Mark::Ball, format!("BALL {} ON FLOOR {}", ball.id, ball.floor));
         self.word(Mark::Velocity, format!("  {:.3} M/S", velocity.length()));
-        self.word(Mark::Ball, format!("  SPIN {:.1} RAD/S", shown(ball.spin)));
+        self.word(Mark::Ball, format!("  SPIN {:.1} RAD/S", shown(ball.spin_at(self.at, self.world.scene()))));
         self.word(Mark::Support, format!("  {lies}"));
         if let Some(impact) = flight.and_then(|flight| flight.impact) {
             let wait = impact.event.at.since(self.at, self.world.scene().tick_seconds);

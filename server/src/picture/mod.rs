@@ -253,8 +253,9 @@ impl Picture<'_> {
         for ball in state.balls.iter().take(MOST_WORDS) {
             let (_, velocity) = ball.at(self.now, scene.tick_seconds);
             let mut line = format!("ball {}: {:.3} m/s", ball.id, velocity.length());
-            if ball.spin != 0.0 {
-                let _ = write!(line, ", spin {:.1} rad/s", ball.spin);
+            let spin = ball.spin_at(self.now, scene);
+            if spin != 0.0 {
+                let _ = write!(line, ", spin {spin:.1} rad/s");
             }
             if ball.floor != 0 {
                 let _ = write!(line, ", floor {}", ball.floor);
