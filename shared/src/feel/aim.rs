@@ -11,7 +11,7 @@ use crate::physics::scene::Scene;
 pub(super) const AIM: Family = Family {
     name: "aim",
     drill: "A ball rolls down the resting flipper from its pivot, where it lay still, or from the inlane, at 0.5 m/s there, and is \
-        flipped where it is. Its direction 30 ms later is sampled every 0.1 mm from 15 to 62 mm along the flipper. The farther to the tip, the more to the \
+        flipped where it is. Its direction 60 ms later is sampled every 0.1 mm from 15 to 62 mm along the flipper. The farther to the tip, the more to the \
         other side: strictly. Smooth: the jump between two samples is at most what the curve rises by on the millimetre around them \
         without that jump, scaled to a whole millimetre: 1 is the most that passes. The right flipper's shots are those of the mirrored table.",
     measure: aim,
@@ -35,7 +35,7 @@ const APART: f64 = 1e-4;
 /// The first and the last place, in units of that: from where a ball is clear of the guide to where it leaves the flat.
 const PLACES: core::ops::Range<u32> = 150..620;
 /// Ticks from the button until the direction is read: the stroke is over, and nothing else was met.
-const READ: u64 = 30;
+const READ: u64 = 60;
 /// Ticks for which the ball rolls before the button.
 const ROLLS: u64 = 10;
 /// Where a ball lies still that is let go, m from the pivot.

@@ -1,7 +1,7 @@
 //! What drives flippers and plungers: coils, springs, hands, and the balls that lie on them.
 
 use super::ball::{Ball, Instant, Support};
-use super::constants::PIECE_ANGLE;
+use super::constants::{MOVER_PARTS, PIECE_ANGLE};
 use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::movers::lever;
 use super::world::World;
@@ -46,11 +46,7 @@ impl World {
         let spec = &self.scene.flippers[index];
         let flipper = FlipperState { coil_time: flipper.coil_time + offset, ..flipper };
         let FlipperState { swing, speed, .. } = flipper;
-        let span = if self.on_flipper(index).next().is_some() {
-            self.flipper_piece(speed, offset)
-        } else {
-            self.scene.tick_seconds - offset
-        };
+        let span = self.flipper_piece(index, swing, speed, offset);
         let acceleration = self.flipper_acceleration(index, &flipper, spec.drive(&flipper, swing, span), offset);
         let guess = FlipperMotion { from: offset, swing, speed, acceleration };
         let middle = offset + 0.5 * span;
@@ -68,10 +64,20 @@ impl World {
         self.flipper_motions[index] = Some(self.flipper_motion(index, flipper, offset));
     }
 
-    /// Seconds from `offset` on for which a ball on a flipper that turns at `speed` follows one parabola.
-    pub(super) fn flipper_piece(&self, speed: f64, offset: f64) -> f64 {
-        let (left, turned) = (self.scene.tick_seconds - offset, PIECE_ANGLE / speed.abs());
-        if turned < left { turned } else { left }
+    /// Seconds from `offset` on for which balls on a flipper, which is at `swing` and turns at `speed`, follow one parabola: until
+    /// it, or a ball around its tip, has turned by [`PIECE_ANGLE`]; without a ball all of the tick.
+    pub(super) fn flipper_piece(&self, index: usize, swing: f64, speed: f64, offset: f64) -> f64 {
+        let (spec, dt) = (&self.scene.flippers[index], self.scene.tick_seconds);
+        let (mut rate, mut is_empty) = (speed.abs(), true);
+        for ball in self.on_flipper(index) {
+            is_empty = false;
+            let (center, velocity) = ball.at(Instant { tick: self.state.tick, offset }, dt);
+            let around = spec.rate_around(swing, speed, center, velocity, self.scene.radius(ball.kind));
+            rate = if around > rate { around } else { rate };
+        }
+        let (left, turned, least) = (dt - offset, PIECE_ANGLE / rate, dt / f64::from(MOVER_PARTS));
+        let turned = if turned > least { turned } else { least };
+        if turned < left && !is_empty { turned } else { left }
     }
 
     /// The balls that a moving flipper carries.

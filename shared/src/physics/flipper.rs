@@ -207,6 +207,13 @@ impl FlipperSpec {
         }
     }
 
+    /// Rate at which a ball of `radius` that is there rolls around the flipper's end, rad/s; 0 on its straight faces.
+    pub fn rate_around(&self, swing: f64, speed: f64, center: DVec2, velocity: DVec2, radius: f64) -> f64 {
+        let Nearest { normal, radius: curved, .. } = self.nearest(self.direction(swing), center);
+        let drift = (velocity - self.surface_velocity(speed, center)).dot(tangent(normal));
+        drift.abs() / (curved + radius)
+    }
+
     /// Velocity of the point of the flipper at `point`.
     pub fn surface_velocity(&self, speed: f64, point: DVec2) -> DVec2 {
         (point - self.pivot).perp() * self.turn_rate(speed)

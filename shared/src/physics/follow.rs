@@ -11,7 +11,7 @@ use super::ball::{Flight, Instant, Slide, Support};
 use super::constants::{LOST_CONTACT, SPHERE_INERTIA};
 use super::flipper::Nearest;
 use super::friction::{Friction, Rub};
-use super::movers::{Mover, MovingFlipper};
+use super::movers::{Mover, MovingFlipper, lever};
 use super::scene::Presence;
 use super::shapes::Shape;
 use super::world::World;
@@ -101,7 +101,11 @@ impl World {
         let pull = self.pull_on(ball, position, velocity, self.piece(support, offset));
         let push = self.mover_push(support, offset, position, velocity, radius);
         // Pressed on by less than nothing: it flies.
-        let velocity = if leaving > self.scene.rest_speed { velocity } else { velocity - normal * leaving };
+        let velocity = if leaving > self.scene.rest_speed {
+            velocity
+        } else {
+            velocity + normal * self.share_contact(ball, support, offset, position - normal * radius, normal, leaving)
+        };
         if leaving > self.scene.rest_speed || push <= pull.dot(normal) {
             self.start_flight(ball, offset, position, velocity, None, None);
             if let Support::Flipper(index) = support {
@@ -132,6 +136,35 @@ impl World {
         self.flight_changed(ball);
     }
 
+    /// What a ball's normal velocity changes by so that it neither leaves nor enters the moving surface that it lies on, which it
+    /// does at `leaving` m/s; a flipper gets the opposite push.
+    fn share_contact(
+        &mut self,
+        ball: usize,
+        support: Support,
+        offset: f64,
+        contact: DVec2,
+        normal: DVec2,
+        leaving: f64,
+    ) -> f64 {
+        let Support::Flipper(index) = support else { return -leaving };
+        let index = usize::from(index);
+        let Some(mut motion) = self.flipper_motions[index] else { return -leaving };
+        let (spec, mass) = (&self.scene.flippers[index], self.mass(ball));
+        let lever = lever(spec, contact, normal);
+        let push = -leaving / (1.0 / mass + lever * lever / spec.inertia);
+        (motion.swing, motion.speed) = (motion.swing_at(offset), motion.speed_at(offset) - push * lever / spec.inertia);
+        // Not into the stop that it has just left: that would hold it there.
+        if (motion.swing <= 0.0 && motion.speed < 0.0) || (motion.swing >= spec.stroke && motion.speed > 0.0) {
+            return -leaving;
+        }
+        motion.from = offset;
+        self.flipper_motions[index] = Some(motion);
+        let flipper = &mut self.state.flippers[index];
+        (flipper.swing, flipper.speed) = (motion.swing, motion.speed);
+        push / mass
+    }
+
     /// When in this tick a ball that a flipper carries begins its next piece of flight: the offset.
     pub(super) fn next_piece(&self, ball: usize) -> Option<f64> {
         let subject = &self.state.balls[ball];
@@ -144,8 +177,9 @@ impl World {
     fn piece(&self, support: Support, offset: f64) -> f64 {
         match support {
             Support::Flipper(index) => {
-                let motion = self.flipper_motions[usize::from(index)];
-                self.flipper_piece(motion.map_or(0.0, |motion| motion.speed_at(offset)), offset)
+                let index = usize::from(index);
+                let Some(motion) = self.flipper_motions[index] else { return self.scene.tick_seconds - offset };
+                self.flipper_piece(index, motion.swing_at(offset), motion.speed_at(offset), offset)
             }
             _ => self.scene.tick_seconds - offset,
         }
