@@ -65,19 +65,20 @@ impl World {
     }
 
     /// Seconds from `offset` on for which balls on a flipper, which is at `swing` and turns at `speed`, follow one parabola: until
-    /// it, or a ball around its tip, has turned by [`PIECE_ANGLE`]; without a ball all of the tick.
+    /// it, or a ball around one of its ends, has turned by [`PIECE_ANGLE`], or a ball comes to such an end; without a ball all
+    /// of the tick.
     pub(super) fn flipper_piece(&self, index: usize, swing: f64, speed: f64, offset: f64) -> f64 {
         let (spec, dt) = (&self.scene.flippers[index], self.scene.tick_seconds);
-        let (mut rate, mut is_empty) = (speed.abs(), true);
+        let (mut piece, mut is_empty) = (PIECE_ANGLE / speed.abs(), true);
         for ball in self.on_flipper(index) {
             is_empty = false;
             let (center, velocity) = ball.at(Instant { tick: self.state.tick, offset }, dt);
-            let around = spec.rate_around(swing, speed, center, velocity, self.scene.radius(ball.kind));
-            rate = if around > rate { around } else { rate };
+            let rolls = spec.rolls_for(swing, speed, center, velocity, self.scene.radius(ball.kind), PIECE_ANGLE);
+            piece = if rolls < piece { rolls } else { piece };
         }
-        let (left, turned, least) = (dt - offset, PIECE_ANGLE / rate, dt / f64::from(MOVER_PARTS));
-        let turned = if turned > least { turned } else { least };
-        if turned < left && !is_empty { turned } else { left }
+        let (left, least) = (dt - offset, dt / f64::from(MOVER_PARTS));
+        let piece = if piece > least { piece } else { least };
+        if piece < left && !is_empty { piece } else { left }
     }
 
     /// The balls that a moving flipper carries.

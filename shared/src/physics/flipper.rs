@@ -158,15 +158,19 @@ impl FlipperSpec {
         self.torque * strength * (1.0 - held * (1.0 - self.hold))
     }
 
+    /// Sine and cosine of the angle by which the faces' normals lean towards the tip: asin((base - tip) / length).
+    fn lean(&self) -> (f64, f64) {
+        let lean = (self.base_radius - self.tip_radius) / self.length;
+        (lean, (1.0 - lean * lean).sqrt())
+    }
+
     /// The surface nearest to `point` when the flipper points along `axis`: two circles and their common tangents.
     pub fn nearest(&self, axis: DVec2, point: DVec2) -> Nearest {
         let offset = point - self.pivot;
         let along = offset.dot(axis);
         let across = axis.perp_dot(offset);
         let side = if across < 0.0 { -1.0 } else { 1.0 };
-        // The tangent's normal leans towards the tip by asin((base - tip) / length).
-        let lean = (self.base_radius - self.tip_radius) / self.length;
-        let upright = (1.0 - lean * lean).sqrt();
+        let (lean, upright) = self.lean();
         let place = along * upright - across.abs() * lean;
         if place <= 0.0 {
             round(offset, self.base_radius)
@@ -181,8 +185,7 @@ impl FlipperSpec {
     /// The same flipper as static shapes, for when it lies at a stop.
     pub fn shapes(&self, swing: f64) -> [Shape; 4] {
         let axis = self.direction(swing);
-        let lean = (self.base_radius - self.tip_radius) / self.length;
-        let upright = (1.0 - lean * lean).sqrt();
+        let (lean, upright) = self.lean();
         let tip = self.pivot + axis * self.length;
         let face = |side: f64| {
             let normal = axis * lean + axis.perp() * (upright * side);
@@ -207,11 +210,23 @@ impl FlipperSpec {
         }
     }
 
-    /// Rate at which a ball of `radius` that is there rolls around the flipper's end, rad/s; 0 on its straight faces.
-    pub fn rate_around(&self, swing: f64, speed: f64, center: DVec2, velocity: DVec2, radius: f64) -> f64 {
-        let Nearest { normal, radius: curved, .. } = self.nearest(self.direction(swing), center);
-        let drift = (velocity - self.surface_velocity(speed, center)).dot(tangent(normal));
-        drift.abs() / (curved + radius)
+    /// Seconds for which a ball of `radius` that rolls along the flipper follows one parabola: until it has turned by `angle`
+    /// around one of the ends, or comes to the end of a straight face.
+    pub fn rolls_for(&self, swing: f64, speed: f64, center: DVec2, velocity: DVec2, radius: f64, angle: f64) -> f64 {
+        let axis = self.direction(swing);
+        let Nearest { normal, radius: curved, .. } = self.nearest(axis, center);
+        let along = tangent(normal);
+        let drift = (velocity - self.surface_velocity(speed, center)).dot(along);
+        if curved.is_finite() {
+            return angle * (curved + radius) / drift.abs();
+        }
+        let (lean, upright) = self.lean();
+        let offset = center - self.pivot;
+        let place = offset.dot(axis) * upright - axis.perp_dot(offset).abs() * lean;
+        // Outwards is where the tip is.
+        let outwards = drift * along.dot(axis) > 0.0;
+        let left = if outwards { self.length * upright - place } else { place };
+        left / drift.abs()
     }
 
     /// Velocity of the point of the flipper at `point`.
