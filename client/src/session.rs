@@ -169,7 +169,7 @@ impl Session {
         match message {
             ServerMessage::Snapshot(snapshot) => {
                 self.clock.arrived(snapshot.state.world.tick, at);
-                self.snapshots.push(snapshot)?;
+                self.snapshots.push(*snapshot)?;
                 self.counts.snapshots += 1;
                 self.heard_at = at;
             }

@@ -24,9 +24,9 @@ pub(crate) fn feel(arguments: &Feel) -> Result<(), String> {
     if let Some(folder) = &arguments.svg {
         plots(folder)?;
     }
-    match report.surprises().as_slice() {
+    match report.failures().as_slice() {
         [] => Ok(()),
-        surprises => Err(format!("not as stated:\n{}", surprises.join("\n"))),
+        failures => Err(format!("out of range:\n{}", failures.join("\n"))),
     }
 }
 

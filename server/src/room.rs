@@ -355,7 +355,7 @@ impl Room {
 
     fn send_snapshot(&mut self) {
         let snapshot = Snapshot { state: self.game.state(), events: std::mem::take(&mut self.events) };
-        let frame = frame_of(&ServerMessage::Snapshot(snapshot));
+        let frame = frame_of(&ServerMessage::Snapshot(Box::new(snapshot)));
         self.account.snapshots += 1;
         self.account.snapshot_bytes += frame.len() as u64;
         self.account.largest_snapshot = self.account.largest_snapshot.max(frame.len());

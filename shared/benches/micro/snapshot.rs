@@ -39,7 +39,7 @@ impl Messages {
     /// In play, with one ball.
     fn of_classic() -> Self {
         let snapshots = classic::snapshots(INPUTS).into_iter();
-        let message = |(state, events)| ServerMessage::Snapshot(Snapshot { state, events });
+        let message = |(state, events)| ServerMessage::Snapshot(Box::new(Snapshot { state, events }));
         Self::new("classic, one ball", snapshots.map(message).collect())
     }
 
@@ -65,7 +65,7 @@ impl Messages {
             for _ in 0..17 {
                 events.extend_from_slice(game.step(&[]));
             }
-            ServerMessage::Snapshot(Snapshot { state: game.state(), events })
+            ServerMessage::Snapshot(Box::new(Snapshot { state: game.state(), events }))
         });
         Self::new("a hundred balls", messages.collect())
     }

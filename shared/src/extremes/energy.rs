@@ -20,7 +20,7 @@ pub(super) const CHECKS: &[Check] = &[
         name: "restitution 1: drift in 1,000 bounces",
         unit: "of it",
         goal: 1e-12,
-        known: &known::late_and_chord(0.04, 0.01, 4e-5),
+        known: &known::late_and_chord(0.04, 0.02, 4e-5),
         measure: drift,
     },
     Check {

@@ -11,8 +11,8 @@ pub(super) const LIVE_CATCH: Family = Family {
     name: "live catch",
     drill: "A ball flies at the middle of the raised flipper's face, along its normal, at 0.5 m/s (it fell from the slingshots), 1 m/s (from \
         the top of the table) or 2 m/s (a shot comes back). The button is pressed so long before it would arrive there; the speed \
-        left is read 80 ms after. Curve: from -10 to 30 ms by 0.5 ms. There is a window of at least 2 ms with at most a quarter of \
-        the speed left, whose best is no more than 8 ms after the end of the stroke.",
+        left is read 80 ms after. Curve: from -10 to 30 ms by 0.5 ms. The best is no more than 8 ms after the end of the stroke and leaves \
+        at most 0.3 of the speed; there is a window of at least 1 ms with at most 0.35 left.",
     measure: live_catch,
 };
 
@@ -89,7 +89,7 @@ fn live_catch() -> Vec<Figure> {
     for speed in SPEEDS {
         let curve = live_curve(speed);
         let best = curve.iter().fold((0.0, f64::INFINITY), |best, &point| if point.1 < best.1 { point } else { best });
-        let wide = window(curve.iter().map(|(_, left)| *left <= 0.25 * speed), 0.5);
+        let wide = window(curve.iter().map(|(_, left)| *left <= 0.35 * speed), 0.5);
         let held = left(&classic(1000), speed, 200.0);
         figures.extend([
             Figure::told(format!("{speed} m/s: left by a flipper that has long been up"), held / speed, "of the speed"),
@@ -97,10 +97,10 @@ fn live_catch() -> Vec<Figure> {
                 format!("{speed} m/s: least left, {} ms after the button", best.0),
                 best.1 / speed,
                 "of the speed",
-                0.25,
+                0.3,
             ),
             Figure::between(format!("{speed} m/s: best after the end of the stroke"), best.0 - stroke, "ms", 0.0, 8.0),
-            Figure::at_least(format!("{speed} m/s: window with a quarter or less"), wide, "ms", 2.0),
+            Figure::at_least(format!("{speed} m/s: window with 0.35 or less"), wide, "ms", 1.0),
         ]);
     }
     figures

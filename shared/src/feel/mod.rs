@@ -1,15 +1,13 @@
 //! How the table feels to a player: the drills that players know and the motions that physics books solve, as named figures
 //! with the range that a real machine, or a closed form, sets for each.
 //!
-//! `starball-server feel` prints them, and the unit tests hold them. A figure that is out of its range is told of as it is;
-//! one that is known to be says why.
+//! `starball-server feel` prints them, and the unit tests hold them.
 
 pub mod aim;
 mod arm;
 mod backhand;
 pub mod catches;
 mod cradle;
-mod known;
 mod pair;
 mod passes;
 mod rolling;
@@ -133,11 +131,11 @@ impl Report {
         report
     }
 
-    /// What is out of its range without being known to be, or within it although it is known not to be.
-    pub fn surprises(&self) -> Vec<String> {
+    /// What is out of its range.
+    pub fn failures(&self) -> Vec<String> {
         let figures = self.rows.iter().flat_map(|row| row.figures.iter().map(move |figure| (row.name, figure)));
         figures
-            .filter(|(name, figure)| figure.passes() == known::why(name, &figure.what).is_some())
+            .filter(|(_, figure)| !figure.passes())
             .map(|(name, figure)| format!("{name}, {}: {} {}", figure.what, figure.measured, figure.unit))
             .collect()
     }
@@ -145,37 +143,18 @@ impl Report {
 
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut reasons: Vec<&'static str> = Vec::new();
         writeln!(f, "| what | figure | pass | measured | |\n|---|---|---|---|---|")?;
         for row in &self.rows {
             for (place, figure) in row.figures.iter().enumerate() {
                 let name = if place == 0 { row.name } else { "" };
-                write!(
-                    f,
-                    "| {name} | {} | {} | {} |",
-                    figure.what,
-                    Bounds(figure),
-                    Value(figure.measured, figure.unit)
-                )?;
-                match (figure.has_range(), figure.passes(), known::why(row.name, &figure.what)) {
-                    (false, ..) => writeln!(f, " |")?,
-                    (true, true, _) => writeln!(f, " passes |")?,
-                    (true, false, None) => writeln!(f, " **fails** |")?,
-                    (true, false, Some(why)) => {
-                        let place = reasons.iter().position(|known| *known == why).unwrap_or_else(|| {
-                            reasons.push(why);
-                            reasons.len() - 1
-                        });
-                        writeln!(f, " **fails** [{}] |", place + 1)?;
-                    }
-                }
+                let (range, value) = (Bounds(figure), Value(figure.measured, figure.unit));
+                let verdict = match (figure.has_range(), figure.passes()) {
+                    (false, _) => "",
+                    (true, true) => " passes",
+                    (true, false) => " **fails**",
+                };
+                writeln!(f, "| {name} | {} | {range} | {value} |{verdict} |", figure.what)?;
             }
-        }
-        if !reasons.is_empty() {
-            writeln!(f)?;
-        }
-        for (number, why) in (1..).zip(&reasons) {
-            writeln!(f, "{number}. {why}")?;
         }
         writeln!(f, "\nThe drills:\n")?;
         self.rows.iter().try_for_each(|row| writeln!(f, "- {}: {}", row.name, row.drill))

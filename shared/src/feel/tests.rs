@@ -1,15 +1,15 @@
-//! Every figure lies in its range, or is known not to.
+//! Every figure lies in its range.
 
 use super::*;
 
 #[test]
-fn every_figure_is_as_expected() {
+fn every_figure_lies_in_its_range() {
     let report = Report::of_all(|_| {});
     println!("{report}");
-    assert_eq!(report.surprises(), Vec::<String>::new());
+    assert_eq!(report.failures(), Vec::<String>::new());
 }
 
-/// A figure that fails shows it: in the cell, and among the surprises.
+/// A figure that fails shows it: in the cell, and among the failures.
 #[test]
 fn a_report_says_what_passes_and_what_fails() {
     let figures = vec![
@@ -31,5 +31,5 @@ The drills:
 - drill: It is done.
 ";
     assert_eq!(report.to_string(), expected);
-    assert_eq!(report.surprises(), ["drill, error: 0.00002 m", "drill, window: NaN ms"]);
+    assert_eq!(report.failures(), ["drill, error: 0.00002 m", "drill, window: NaN ms"]);
 }

@@ -396,7 +396,7 @@ mod tests {
         let mut rng = crate::math::Rng::new(9);
         let (radius, mass, inertia) = (0.0135, 0.08, 1.07e-4);
         for _ in 0..10_000 {
-            let normal = crate::math::direction(rng.between(0.0, 6.28));
+            let normal = crate::math::direction(rng.between(0.0, core::f64::consts::TAU));
             let arm = DVec2::new(rng.between(-0.07, 0.07), rng.between(-0.07, 0.07));
             let (velocity, spin) =
                 (DVec2::new(rng.between(-5.0, 5.0), rng.between(-5.0, 5.0)), rng.between(-300.0, 300.0));

@@ -97,7 +97,7 @@ pub enum ServerMessage {
         reason: String,
     },
     /// The game as it is now, [`super::SNAPSHOT_HZ`] times a second.
-    Snapshot(Snapshot),
+    Snapshot(Box<Snapshot>),
     /// Who is there, whenever that changes.
     Roster(Roster),
     /// What the receiver is, whenever that changes.

@@ -7,7 +7,7 @@ use crate::math::Rng;
 use crate::table::Table;
 
 fn message_of(snapshot: Snapshot) -> ServerMessage {
-    ServerMessage::Snapshot(snapshot)
+    ServerMessage::Snapshot(Box::new(snapshot))
 }
 
 #[test]

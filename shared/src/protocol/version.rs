@@ -133,7 +133,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
     let from_server = [
         ServerMessage::Welcome(welcome),
         ServerMessage::Refused { reason: "full".to_owned() },
-        ServerMessage::Snapshot(sample_snapshot()),
+        ServerMessage::Snapshot(Box::new(sample_snapshot())),
         ServerMessage::Roster(roster),
         ServerMessage::You { seat: Some(1), line: Some(2) },
         ServerMessage::Pong { nonce: 1, tick: 2 },

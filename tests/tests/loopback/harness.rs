@@ -185,7 +185,7 @@ impl Client {
     pub(crate) async fn snapshot(&mut self) -> Snapshot {
         loop {
             if let ServerMessage::Snapshot(snapshot) = self.hear().await {
-                return snapshot;
+                return *snapshot;
             }
         }
     }
