@@ -82,7 +82,6 @@ impl NetError {
 }
 
 /// What came in.
-#[expect(clippy::large_enum_variant, reason = "nearly all of them are messages, and each is moved but twice")]
 #[derive(Debug)]
 pub(crate) enum Incoming {
     /// The connection stands.
