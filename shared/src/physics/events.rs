@@ -220,7 +220,12 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        let Collider { ref shape, role, element, material, presence, .. } = self.scene.colliders[usize::from(index)];
+        let Collider { ref shape, role, element, mut material, presence, .. } =
+            self.scene.colliders[usize::from(index)];
+        if self.is_hammered(ball) && self.scene.needs.flippers {
+            // Between a flipper and a wall: it is pressed, not hammered.
+            material.restitution = 0.0;
+        }
         let (normal, rest_speed) = (shape.normal_at(position), self.scene.rest_speed);
         let speed = -velocity.dot(normal);
         let mut kick = 0.0;
@@ -299,6 +304,7 @@ impl World {
         ball_state.past = Some((0.0, u16::MAX));
         self.flight_changed(ball);
         self.next[ball] = Some(Next::ClearUntil(f64::INFINITY));
+        self.hold_flippers_at(position, self.radius(ball), offset);
     }
 
     fn meet_flipper(&mut self, ball: usize, index: usize, impact: MoverImpact) {

@@ -216,6 +216,14 @@ pub(super) fn first_impact(
         {
             return Some(impact);
         }
+        // In touch all the while, and only now the one comes towards the other.
+        if gap_right <= 0.0
+            && gap_left <= 0.0
+            && right < until
+            && let Some(impact) = impact(right)
+        {
+            return Some(impact);
+        }
         (left, gap_left) = (right, gap_right);
     }
     None

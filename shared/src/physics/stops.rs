@@ -2,10 +2,10 @@
 
 use glam::DVec2;
 
-use super::constants::FLIPPER_STOP_SPEED;
+use super::constants::{FLIPPER_STOP_SPEED, LOST_CONTACT};
 use super::contact::{Mobility, Response, Surface};
-use super::flipper::FlipperRest;
-use super::movers::lever;
+use super::flipper::{FlipperMotion, FlipperRest};
+use super::movers::{Mover, lever};
 use super::scene::Presence;
 use super::world::World;
 use crate::math::tangent;
@@ -68,6 +68,21 @@ impl World {
         self.flipper_changed(index, offset, true);
         let flipper = self.state.flippers[index];
         self.flipper_motions[index] = Some(self.flipper_motion(index, flipper, offset));
+    }
+
+    /// A ball at that place lies still for the rest of the tick, and with it whatever flipper presses it against something that
+    /// does not give way.
+    pub(super) fn hold_flippers_at(&mut self, position: DVec2, radius: f64, offset: f64) {
+        for index in 0..self.flipper_motions.len() {
+            let Some(flipper) = self.moving_flipper(index) else { continue };
+            if flipper.nearest(offset, position).distance > radius * (1.0 + LOST_CONTACT) {
+                continue;
+            }
+            let swing = flipper.motion.swing_at(offset);
+            self.flipper_motions[index] = Some(FlipperMotion { from: offset, swing, speed: 0.0, acceleration: 0.0 });
+            let flipper = &mut self.state.flippers[index];
+            (flipper.swing, flipper.speed) = (swing, 0.0);
+        }
     }
 
     /// A flipper meets an end stop: it bounces off, or stays.

@@ -10,6 +10,7 @@ mod plunger;
 mod restore;
 mod saucers;
 mod searches;
+mod squeezes;
 mod surfaces;
 mod tunnelling;
 
