@@ -137,7 +137,7 @@ impl Bot {
         if (tick + latency).is_multiple_of(every) {
             let dt = game.table().scene.tick_seconds;
             let now = Instant::start_of(tick);
-            let loose = game.world().state().balls.iter().filter(|ball| ball.saucer().is_none());
+            let loose = game.world().state().balls.iter().filter(|ball| ball.saucer().is_none() && ball.floor == 0);
             let balls = loose.map(|ball| ball.at(now, dt));
             let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
             let place = ((tick + latency) / every % length) as usize;

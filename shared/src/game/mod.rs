@@ -182,8 +182,9 @@ impl Game {
         Ok(())
     }
 
+    /// Ticks in so many seconds, at least one.
     fn ticks(&self, seconds: f64) -> u32 {
-        (seconds / self.table.scene.tick_seconds) as u32
+        ((seconds / self.table.scene.tick_seconds) as u32).max(1)
     }
 
     /// 1. An action of a seat. What is not theirs to do now has no effect.
@@ -213,8 +214,8 @@ impl Game {
                     self.start();
                 }
             }
-            // A tilted game hears no buttons.
-            _ if self.play.tilt.tilted => {}
+            // A tilted game hears no buttons; its plunger is a rod of steel.
+            Action::Flipper { .. } | Action::Nudge(_) if self.play.tilt.tilted => {}
             Action::Flipper { right, pressed } => {
                 if self.play.phase.has_turn(seat) {
                     if pressed {
@@ -271,6 +272,7 @@ impl Game {
         self.world.pull(None);
         self.world.clear_balls();
         self.play.tilt = Tilt::default();
+        self.world.still_the_bob();
         let serve_in = self.ticks(pause);
         self.play.phase = Phase::Play {
             seat,

@@ -103,8 +103,10 @@ impl Game {
         let within = WAITS_WITHIN * scene.radius(ball.kind);
         // One that falls after a plunger that is pulled back is on neither.
         let in_lane = |distance: f64, stroke: f64| distance < within && distance > -(stroke + within);
-        matches!(ball.support, Support::Plunger(_))
-            || scene.plungers.iter().any(|plunger| in_lane(plunger.distance(0.0, position), plunger.stroke))
+        // The lane is on the playfield: what is above it does not wait there.
+        ball.floor == 0
+            && (matches!(ball.support, Support::Plunger(_))
+                || scene.plungers.iter().any(|plunger| in_lane(plunger.distance(0.0, position), plunger.stroke)))
     }
 
     /// Whether a player holds a ball, in the cradle of a flipper whose button is pressed, or a saucer does.
@@ -117,7 +119,7 @@ impl Game {
         let beyond = CRADLE * scene.radius(ball.kind);
         let flippers = scene.flippers.iter().zip(&self.world.state().flippers);
         flippers
-            .filter(|(_, flipper)| flipper.pressed)
+            .filter(|(_, flipper)| flipper.pressed && ball.floor == 0)
             .any(|(spec, _)| (position - spec.pivot).length() <= spec.reach() + beyond)
     }
 

@@ -13,6 +13,9 @@ pub(crate) const MOST_BALLS_A_GAME: u32 = 100;
 /// The most balls that wait to be put into play: rules that ask for more get no more.
 pub(super) const MOST_EXTRA: u32 = 16;
 
+/// The most ticks of a pause: two seconds at the highest tick rate.
+const MOST_PAUSE: u32 = 2_000_000;
+
 /// A place at the table.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Seat {
@@ -90,6 +93,10 @@ impl Play {
                 found: extra as usize,
                 expected: MOST_EXTRA as usize,
             }),
+            Phase::Play { serve_in, .. } if serve_in > MOST_PAUSE => {
+                Err(StateError::Number { what: "pause", index: 0 })
+            }
+            _ if self.tilt.same_touch > MOST_PAUSE => Err(StateError::Number { what: "tilt", index: 0 }),
             _ => Ok(()),
         }
     }

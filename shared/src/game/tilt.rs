@@ -43,7 +43,7 @@ impl Game {
 
     /// Warns, or tilts, when the plumb bob touches its ring.
     pub(super) fn heed_the_bob(&mut self) {
-        let Phase::Play { seat, .. } = self.play.phase else { return };
+        let Phase::Play { seat, serve_in: 0, .. } = self.play.phase else { return };
         let tilt = &mut self.play.tilt;
         tilt.same_touch = tilt.same_touch.saturating_sub(1);
         if tilt.tilted || tilt.same_touch > 0 || !self.world.bob_touches() {
@@ -62,7 +62,9 @@ impl Game {
         for right in [false, true] {
             self.world.press(right, false);
         }
-        self.world.pull(None);
+        if let Phase::Play { extra, .. } = &mut self.play.phase {
+            *extra = 0;
+        }
         self.emit(GameEventKind::Tilted { seat });
     }
 }

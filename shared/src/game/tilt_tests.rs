@@ -79,3 +79,23 @@ fn a_replay_of_nudges_arrives_at_the_same_digest() {
     };
     assert_eq!(play(), play());
 }
+
+/// Broke: a game that tilted with its ball on the plunger waited for ever, and the next player inherited a swinging bob.
+#[test]
+fn a_ball_on_the_plunger_can_be_launched_after_a_tilt_and_the_next_one_begins_with_a_still_bob() {
+    let mut game = started();
+    while !game.tilt().tilted {
+        act(&mut game, &[Action::Nudge(Nudge::Forward)]);
+        wait(&mut game, 170);
+    }
+    act(&mut game, &[Action::Pull(u16::MAX)]);
+    wait(&mut game, 800);
+    act(&mut game, &[Action::Release]);
+    let told = wait(&mut game, 60_000);
+    assert!(told.contains(&GameEventKind::Lost { seat: 0 }), "the ball came to its end: {told:?}");
+    assert!(
+        !told.iter().any(|kind| matches!(kind, GameEventKind::Points { .. } | GameEventKind::Warned { .. })),
+        "{told:?}"
+    );
+    assert!(!game.tilt().tilted);
+}

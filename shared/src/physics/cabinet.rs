@@ -9,7 +9,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::ball::Support;
-use super::constants::{STILL_BOB, STILL_TABLE};
+use super::constants::{MOST_SHAKE, STILL_BOB, STILL_TABLE};
 use super::world::World;
 
 /// What is fixed about a cabinet.
@@ -83,11 +83,11 @@ impl CabinetState {
         *self == Self::default()
     }
 
-    /// Whether every number is finite.
-    pub(super) fn is_finite(&self) -> bool {
-        [self.displacement, self.velocity, self.push, self.acceleration, self.bob, self.bob_velocity]
-            .into_iter()
-            .all(DVec2::is_finite)
+    /// Whether no number is beyond what any hand could do.
+    pub(super) fn is_possible(&self) -> bool {
+        let numbers = [self.displacement, self.velocity, self.push, self.bob, self.bob_velocity];
+        numbers.into_iter().all(|number| number.length() <= MOST_SHAKE)
+            && self.acceleration.length() <= MOST_SHAKE * MOST_SHAKE
     }
 
     /// A tick later.
@@ -129,10 +129,14 @@ impl World {
         self.scene.cabinet.is_some_and(|spec| self.state.cabinet.bob.length() > spec.ring)
     }
 
+    /// Somebody stops the plumb bob: the next player begins with one that hangs still.
+    pub fn still_the_bob(&mut self) {
+        (self.state.cabinet.bob, self.state.cabinet.bob_velocity) = (DVec2::ZERO, DVec2::ZERO);
+    }
+
     /// The table moves on by a tick; every ball that it takes along, or leaves behind, begins a new flight.
     pub(super) fn move_cabinet(&mut self) {
         let Some(spec) = self.scene.cabinet else { return };
-        self.before = self.state.cabinet.acceleration;
         self.state.cabinet = self.state.cabinet.advanced(&spec, self.scene.tick_seconds);
         if self.state.cabinet.acceleration == DVec2::ZERO && self.before == DVec2::ZERO {
             return;

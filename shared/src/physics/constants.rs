@@ -114,13 +114,17 @@ pub const WEDGE_SPEEDS: f64 = 4.0;
 pub const LOST_CONTACT: f64 = 0.01;
 
 /// Angle, rad, by which a flipper turns at the most while a ball on it follows one parabola: at 6 cm from the pivot such a
-/// piece is 0.6 mm long and 3 micrometres high. Larger: shots depend on the tick, and a ball of 100 m/s sinks in. Smaller: a
+/// piece is 1.2 mm long and 3 micrometres high. Larger: shots depend on the tick, and a ball of 100 m/s sinks in. Smaller: a
 /// ball that is shot costs more.
-pub const PIECE_ANGLE: f64 = 0.01;
+pub const PIECE_ANGLE: f64 = 0.02;
 
 /// Speed of the table, m/s, below which what is left of a nudge is nothing: a two-hundredth of a ball's rest speed on a real
 /// table. Smaller: more ticks of work after each nudge. Larger: its end is felt.
 pub const STILL_TABLE: f64 = 1e-4;
+
+/// Largest displacement and speed of a table and of its plumb bob, m and m/s, that a state may hold; accelerations are at most
+/// the square of it. No hand comes near.
+pub const MOST_SHAKE: f64 = 1e4;
 
 /// Share of its ring's radius below which a plumb bob's swing is nothing. Larger: nudges one after the other do not add up.
 pub const STILL_BOB: f64 = 1e-3;

@@ -103,7 +103,9 @@ fn push_movable(approach: f64, slip: f64, mass: f64, restitution: f64, surface: 
         ((wanted * along + coupling * slip) / determinant, -(slip * normal + coupling * wanted) / determinant);
     if impulse < 0.0 || drag.abs() > friction * impulse {
         // It slips all the way: friction against it, as strong as the load lets it be.
-        let against = if slip > 0.0 { -friction } else { friction };
+        // Without slip it is the push itself that would move the one along the other.
+        let way = if slip == 0.0 { -drag } else { slip };
+        let against = if way > 0.0 { -friction } else { friction };
         let slipping = normal + coupling * against;
         impulse = if slipping > 0.0 { wanted / slipping } else { wanted / normal };
         drag = against * impulse;

@@ -133,10 +133,15 @@ impl World {
                 flipper.speed = motion.speed_at(dt);
             }
         }
-        for (plunger, motion) in self.state.plungers.iter_mut().zip(&self.plunger_motions) {
+        let plungers = self.state.plungers.iter_mut().zip(&self.scene.plungers);
+        for ((plunger, spec), motion) in plungers.zip(&self.plunger_motions) {
             if let (Some(motion), false) = (motion, plunger.home) {
                 plunger.pull = motion.pull_at(dt);
                 plunger.speed = if plunger.hand.is_some() { 0.0 } else { motion.speed_at(dt) };
+                // However hard a ball hits it, its rod is only so long.
+                if plunger.pull > spec.stroke {
+                    (plunger.pull, plunger.speed) = (spec.stroke, 0.0);
+                }
             }
         }
     }

@@ -108,7 +108,8 @@ impl World {
     fn next_mover(&self, ball: usize, clock: f64, limit: f64) -> Option<(f64, Happening)> {
         let dt = self.scene.tick_seconds;
         let subject = &self.state.balls[ball];
-        if subject.support == Support::Stalled || subject.saucer().is_some() {
+        // Flippers and plungers stand on the playfield.
+        if subject.support == Support::Stalled || subject.saucer().is_some() || subject.floor > 0 {
             return None;
         }
         let elapsed = Instant::start_of(self.state.tick).since(subject.flight.start, dt);
@@ -174,8 +175,10 @@ impl World {
         match next {
             Next::ClearUntil(_) | Next::Escapes(_) => {}
             Next::LeavesSupport(_) => {
+                let slide = self.state.balls[ball].slide;
+                let grips = slide.and_then(|slide| slide.until).is_some_and(|until| until <= t);
                 self.refresh_spin(ball, offset, position, velocity);
-                if self.state.balls[ball].slide.is_some_and(|slide| slide.until.is_some_and(|until| until <= t)) {
+                if grips {
                     self.grip(ball, offset, position, velocity);
                 } else {
                     self.start_flight(ball, offset, position, velocity, None, None);
@@ -197,6 +200,7 @@ impl World {
                             return;
                         }
                         self.emit(ball, offset, position, velocity, EventKind::Passed { element });
+                        self.refresh_spin(ball, offset, position, velocity);
                         self.state.balls[ball].floor = to;
                         self.start_flight(ball, offset, position, velocity, None, None);
                     }
@@ -293,7 +297,9 @@ impl World {
 
     /// Too many impacts within one tick: the ball waits for the next one.
     pub(super) fn stall(&mut self, ball: usize, offset: f64, position: DVec2) {
-        let speed = self.ball_at(ball, offset).1.length();
+        let (_, velocity) = self.ball_at(ball, offset);
+        let speed = velocity.length();
+        self.refresh_spin(ball, offset, position, velocity);
         if speed > self.scene.rest_speed {
             self.emit(ball, offset, position, DVec2::ZERO, EventKind::Stalled { speed });
         }
@@ -304,7 +310,9 @@ impl World {
         ball_state.past = Some((0.0, u16::MAX));
         self.flight_changed(ball);
         self.next[ball] = Some(Next::ClearUntil(f64::INFINITY));
-        self.hold_flippers_at(position, self.radius(ball), offset);
+        if self.state.balls[ball].floor == 0 {
+            self.hold_flippers_at(position, self.radius(ball), offset);
+        }
     }
 
     fn meet_flipper(&mut self, ball: usize, index: usize, impact: MoverImpact) {

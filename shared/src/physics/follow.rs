@@ -54,13 +54,13 @@ impl World {
         }
         // Back onto the surface, at the speed that it has there by its energy: the piece of parabola alone would gain
         // the square of the angle that it turned by.
-        let outward = radial.normalize();
+        let outward = radial.try_normalize().unwrap_or(DVec2::Y);
         let along = tangent(outward * arc.sign());
         let place = arc.center + outward * reach;
         let subject = &self.state.balls[ball];
         let piece = &subject.flight;
         let way = place - piece.position;
-        let worked = self.pull_of_flight(ball).dot(way);
+        let worked = self.pull_of_flight(ball, piece.position + 0.5 * way).dot(way);
         let gained = match subject.slide {
             Some(Slide { spin_rate, .. }) => worked + spin_rate * SPHERE_INERTIA * self.radius(ball) * way.dot(along),
             None => collider.material.rolling_share() * worked,
@@ -290,6 +290,9 @@ impl World {
         self.forget_nexts(Instant { tick: self.state.tick, offset });
         for ball in 0..self.state.balls.len() {
             if self.state.balls[ball].saucer().is_some() {
+                continue;
+            }
+            if self.state.balls[ball].floor > 0 {
                 continue;
             }
             let is_own = |i: u16| own.contains(&self.scene.colliders[usize::from(i)].presence);

@@ -199,7 +199,7 @@ impl World {
             ball_speed: across.abs(),
             plate_mass: spec.mass(),
             plate_speed: sign * speed * spec.lever,
-            work: mass * self.scene.gravity.dot(ahead) * spec.lever,
+            work: mass * self.scene.gravity_on(self.state.balls[ball].floor).dot(ahead) * spec.lever,
             lift: spec.lift,
             restitution: spec.restitution,
         };

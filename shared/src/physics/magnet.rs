@@ -8,6 +8,9 @@ use glam::DVec2;
 use super::ball::{Ball, Instant, Support};
 use super::world::World;
 
+/// Share of its reach by which a field is wider for a ball that has just been found on its rim: rounding.
+const RIM: f64 = 1e-9;
+
 /// What is fixed about a magnet.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MagnetSpec {
@@ -30,20 +33,23 @@ pub struct MagnetSpec {
 }
 
 impl MagnetSpec {
-    /// Whether a place is within the field.
+    /// Whether a place is within the field, or on its rim.
     pub fn reaches(&self, place: DVec2) -> bool {
-        (place - self.center).length_squared() <= self.reach * self.reach
+        let reach = self.reach * (1.0 + RIM);
+        (place - self.center).length_squared() <= reach * reach
     }
 
-    /// Acceleration of a ball there with that velocity, m/s^2.
-    pub fn pull(&self, place: DVec2, velocity: DVec2) -> DVec2 {
+    /// Acceleration of a ball there with that velocity, on average over `seconds`, m/s^2.
+    pub fn pull(&self, place: DVec2, velocity: DVec2, seconds: f64) -> DVec2 {
         let offset = place - self.center;
         let distance = offset.length();
-        if distance <= self.core {
-            return offset * (-self.strength / self.core) - velocity * self.drag;
+        if distance > self.core {
+            let share = self.core / distance;
+            return offset * (-self.strength * share * share / distance);
         }
-        let share = self.core / distance;
-        offset * (-self.strength * share * share / distance)
+        // What the drag leaves of a speed, in closed form: strong brakes and long ticks stop a ball, and do not throw it back.
+        let braked = if seconds > 0.0 { -libm::expm1(-self.drag * seconds) / seconds } else { self.drag };
+        offset * (-self.strength / self.core) - velocity * braked
     }
 }
 
@@ -56,34 +62,31 @@ impl World {
         }
         self.state.magnets[usize::from(magnet)] = on;
         self.wake();
-        let now = Instant::start_of(self.state.tick);
         for ball in 0..self.state.balls.len() {
-            let (place, _) = self.state.balls[ball].at(now, self.scene.tick_seconds);
-            if spec.floor == self.state.balls[ball].floor && spec.reaches(place) {
+            if self.is_within(&spec, &self.state.balls[ball]) {
                 self.renew_flight(ball);
             }
         }
     }
 
-    /// The pull of all magnets on a ball that is there, m/s^2.
-    pub(super) fn magnetic_pull(&self, floor: u8, place: DVec2, velocity: DVec2) -> DVec2 {
+    /// The pull at `place` of all magnets whose field a ball was in at `from`, on average over `seconds`, m/s^2.
+    pub(super) fn magnetic_pull(&self, floor: u8, from: DVec2, place: DVec2, velocity: DVec2, seconds: f64) -> DVec2 {
+        let working = self.scene.magnets.iter().zip(&self.state.magnets);
         let working =
-            self.scene.magnets.iter().zip(&self.state.magnets).filter(|(spec, on)| **on && spec.floor == floor);
-        working.fold(
-            DVec2::ZERO,
-            |sum, (spec, _)| {
-                if spec.reaches(place) { sum + spec.pull(place, velocity) } else { sum }
-            },
-        )
+            working.filter(|(spec, on)| **on && spec.floor == floor && spec.reaches(from) && spec.reaches(place));
+        working.fold(DVec2::ZERO, |sum, (spec, _)| sum + spec.pull(place, velocity, seconds))
     }
 
-    /// Whether a magnet pulls a ball: now, or at the start of its flight.
+    /// Whether a ball is in the field of a magnet: now, or at the start of its flight.
+    fn is_within(&self, spec: &MagnetSpec, ball: &Ball) -> bool {
+        let (place, _) = ball.at(Instant::start_of(self.state.tick), self.scene.tick_seconds);
+        spec.floor == ball.floor && (spec.reaches(place) || spec.reaches(ball.flight.position))
+    }
+
+    /// Whether a magnet pulls a ball.
     pub(super) fn is_in_field(&self, ball: &Ball) -> bool {
-        let now = Instant::start_of(self.state.tick);
-        let (place, _) = ball.at(now, self.scene.tick_seconds);
-        self.scene.magnets.iter().zip(&self.state.magnets).any(|(spec, on)| {
-            *on && spec.floor == ball.floor && (spec.reaches(place) || spec.reaches(ball.flight.position))
-        })
+        let working = self.scene.magnets.iter().zip(&self.state.magnets);
+        working.filter(|(_, on)| **on).any(|(spec, _)| self.is_within(spec, ball))
     }
 
     /// Balls in a field begin a new piece of flight with the tick.

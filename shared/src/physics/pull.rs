@@ -22,21 +22,27 @@ impl World {
         if needs.magnets {
             // As it is in the middle of its way.
             let half = 0.5 * seconds;
-            let here = self.magnetic_pull(ball.floor, position, velocity);
+            let here = self.magnetic_pull(ball.floor, position, position, velocity, seconds);
             let middle = position + (velocity + here * (0.5 * half)) * half;
-            pull += self.magnetic_pull(ball.floor, middle, velocity + here * half);
+            pull += self.magnetic_pull(ball.floor, position, middle, velocity, seconds);
         }
         pull
     }
 
-    /// The pull that a ball's present flight was begun with, m/s^2, where no magnet is near.
-    pub(super) fn pull_of_flight(&self, ball: usize) -> DVec2 {
+    /// The pull that a ball's present flight was begun with, m/s^2; that of magnets as it is at `middle`, halfway on its way.
+    pub(super) fn pull_of_flight(&self, ball: usize, middle: DVec2) -> DVec2 {
+        let needs = self.scene.needs;
         let subject = &self.state.balls[ball];
-        let gravity = self.scene.gravity_on(subject.floor);
-        if !self.scene.needs.nudge {
-            return gravity;
+        let flight = &subject.flight;
+        let mut pull = self.scene.gravity_on(subject.floor);
+        if needs.nudge {
+            let is_of_this_tick = flight.start.tick == self.state.tick;
+            pull -= if is_of_this_tick { self.state.cabinet.acceleration } else { self.before };
         }
-        let is_of_this_tick = subject.flight.start.tick == self.state.tick;
-        gravity - if is_of_this_tick { self.state.cabinet.acceleration } else { self.before }
+        if needs.magnets {
+            let tick = self.scene.tick_seconds;
+            pull += self.magnetic_pull(subject.floor, flight.position, middle, flight.velocity, tick);
+        }
+        pull
     }
 }

@@ -176,7 +176,7 @@ impl WorldState {
                 return Err(StateError::Number { what: "flipper", index });
             }
         }
-        if !self.cabinet.is_finite() {
+        if !self.cabinet.is_possible() {
             return Err(StateError::Number { what: "cabinet", index: 0 });
         }
         for (index, (plunger, spec)) in self.plungers.iter().zip(&scene.plungers).enumerate() {
@@ -217,7 +217,9 @@ impl WorldState {
         if !scene.is_inside(position) || self.tick - start.tick > MOST_FLIGHT_TICKS {
             return Err(number);
         }
-        let collider = |i: u16| scene.colliders.get(usize::from(i));
+        // Only what stops a ball carries it, and only on its own floor.
+        let carries = |collider: &&Collider| !collider.role.is_passed() && collider.floor == ball.floor;
+        let collider = |i: u16| scene.colliders.get(usize::from(i)).filter(carries);
         let known = match ball.support {
             Support::None | Support::Stalled => true,
             Support::Line(i) => collider(i).is_some_and(|c| matches!(c.shape, Shape::Segment(_))),

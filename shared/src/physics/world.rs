@@ -16,7 +16,7 @@ use super::meetings::Meetings;
 use super::motion::{Motion, Next, Query, Scratch, Span};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
-use super::scene::{Presence, Scene};
+use super::scene::{Collider, Presence, Scene};
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
 /// Room for what happens in one tick: that many events, and that many for each ball of the start. A tick in which more happens
@@ -203,8 +203,11 @@ impl World {
         self.impacts.clear();
         self.impacts.resize(self.state.balls.len(), 0);
         // 1. The table itself, where it was nudged. Flippers and plungers: which of them move in this tick, and how they are driven.
-        if needs.nudge && !self.state.cabinet.is_still() {
-            self.move_cabinet();
+        if needs.nudge {
+            self.before = self.state.cabinet.acceleration;
+            if !self.state.cabinet.is_still() {
+                self.move_cabinet();
+            }
         }
         if needs.flippers || needs.plungers {
             self.drive_movers();
@@ -421,12 +424,12 @@ impl World {
                 continue;
             }
             let presence = Presence::TargetUp(index as u16);
-            let blocked = self.state.balls.iter().any(|ball| {
+            let in_play = self.state.balls.iter().filter(|ball| ball.saucer().is_none());
+            let blocked = in_play.into_iter().any(|ball| {
                 let (position, _) = ball.at(now, scene.tick_seconds);
-                let place = scene.colliders.iter().filter(|collider| collider.presence == presence);
-                place
-                    .into_iter()
-                    .any(|collider| collider.shape.distance(position) <= scene.radius(ball.kind) * CLEAR_OF_TARGET)
+                let is_there = |collider: &&Collider| collider.presence == presence && collider.floor == ball.floor;
+                let clear = scene.radius(ball.kind) * CLEAR_OF_TARGET;
+                scene.colliders.iter().filter(is_there).any(|collider| collider.shape.distance(position) <= clear)
             });
             if !blocked {
                 self.state.targets[index] = TargetState::Up;

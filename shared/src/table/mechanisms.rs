@@ -92,7 +92,7 @@ impl Builder<'_> {
 
     /// A ball that gravity presses against a plate must get through by that alone: otherwise it would lie on it for ever.
     fn no_ball_lies_on(&self, segment: &Segment, plate: &HingeSpec) -> Result<(), TableError> {
-        let gravity = self.scene.gravity;
+        let gravity = self.scene.gravity_on(self.floor);
         let across = gravity.dot(segment.normal);
         let is_pressed = across.abs() > PRESSED * gravity.length();
         // On the closed side of a one-way gate a ball may lie as on a wall.

@@ -73,6 +73,9 @@ pub(super) fn cabinet_spec(file: &CabinetFile, dt: f64) -> CabinetSpec {
     }
 }
 
+/// Largest angle, rad, that a ball in a magnet's core swings by in a tick: beyond, its motion gains energy.
+const MOST_STIFFNESS: f64 = 0.5;
+
 /// What a plumb bob hangs in, m/s^2.
 const STANDARD_GRAVITY: f64 = 9.80665;
 
@@ -345,6 +348,14 @@ impl Builder<'_> {
         )?;
         self.context.in_range(spot, "strength", file.strength, -1e3, 1e3, "15 m/s^2")?;
         self.context.in_range(spot, "drag", file.drag, 0.0, 1e3, "8 1/s")?;
+        let stiff = (file.strength.abs() / file.core).sqrt() * self.scene.tick_seconds;
+        if stiff > MOST_STIFFNESS {
+            let problem = format!(
+                "a ball in a core of {} m swings faster than the table's ticks follow; a wider `core`, less `strength` or a higher `tick_hz` would be right",
+                file.core
+            );
+            return Err(self.context.error(spot, Some("strength"), problem));
+        }
         let place = self.scene.magnets.len() as u16;
         self.floor = file.floor;
         let none = Material::bouncing(0.0);

@@ -213,3 +213,64 @@ fn a_world_restored_in_the_middle_of_a_nudge_goes_on_bit_for_bit() {
         world.nudge(DVec2::X);
     }
 }
+
+/// Broke: a flipper that moved hit what was on the ramp above it.
+#[test]
+fn a_flipper_does_not_reach_a_ball_on_a_ramp_above_it() {
+    let mut world = crate::physics::World::new(super::classic().scene.clone());
+    launch(&mut world, DVec2::new(0.19, 0.2), DVec2::ZERO);
+    world.state.balls[0].floor = 1;
+    let flight = world.state.balls[0].flight;
+    world.press(false, true);
+    run(&mut world, 60);
+    assert_eq!(world.state.balls[0].flight, flight);
+}
+
+/// Broke: a ball that had left a field within the tick in which its magnet was switched off was pulled on for ever.
+#[test]
+fn a_magnet_that_is_switched_off_pulls_nothing_any_more() {
+    let mut world = magnet(1000, 0.0, true);
+    launch(&mut world, DVec2::new(0.4475, 0.55), DVec2::new(5.0, 0.0));
+    while (ball(&world, 0).0 - DVec2::new(0.5, 0.5)).length() < 0.1 {
+        run(&mut world, 1);
+    }
+    assert_ne!(world.state.balls[0].flight.acceleration, DVec2::ZERO, "its flight began in the field");
+    world.switch(0, false);
+    assert_eq!(world.state.balls[0].flight.acceleration, DVec2::ZERO);
+}
+
+/// Broke: with long ticks a strong brake threw a ball back, ever faster.
+#[test]
+fn a_magnet_brakes_a_ball_whatever_the_tick() {
+    for tick_hz in [10, 100, 1000] {
+        let source = format!(
+            r#"(format: 1, physics: 3, name: "magnet", size: (1.0, 1.0), tick_hz: {tick_hz}, gravity: (0.0, 0.0), rest_speed: 0.02,
+            ball: (radius: 0.0135, mass: 0.08, start: (0.9, 0.9)), materials: {{}}, elements: [
+                Magnet(name: "m", center: (0.5, 0.5), radius: 0.2, core: 0.2, strength: 0.1, drag: 100.0, on: true),
+                Drain(name: "drain", from: (0.0, 0.001), to: (1.0, 0.001)),
+            ], rules: (balls: 3, max_multiplier: 6, on: []))"#
+        );
+        let mut world = World::new(Table::parse("magnet.ron", &source).unwrap_or_else(|error| panic!("{error}")).scene);
+        launch(&mut world, DVec2::new(0.55, 0.5), DVec2::new(0.3, 0.0));
+        run(&mut world, 2 * tick_hz);
+        let (_, velocity) = ball(&world, 0);
+        assert!(velocity.length() < 0.05, "{velocity} at {tick_hz} ticks a second");
+    }
+}
+
+/// Broke: a ball went through an edge with the spin that its flight had begun with.
+#[test]
+fn a_ball_that_rolls_over_an_edge_keeps_its_spin() {
+    let mut world = super::world_with(
+        DVec2::new(0.0, -0.793),
+        r#"Wall(name: "slope", material: "wood", points: [(0.1, 0.6), (0.9, 0.3)]),
+        Edge(name: "edge", from: (0.5, 0.4), to: (0.5, 0.6), floors: (0, 1)),"#,
+    );
+    launch(&mut world, DVec2::new(0.2, 0.578), DVec2::ZERO);
+    while world.state.balls[0].floor == 0 {
+        run(&mut world, 1);
+    }
+    let spin = world.state.balls[0].spin;
+    let (_, velocity) = ball(&world, 0);
+    assert!((spin * 0.0135 + velocity.length()).abs() < 0.02, "spin {spin} at {velocity}");
+}

@@ -197,3 +197,21 @@ fn a_ball_that_slides_grips_and_rolls_without_gaining_energy() {
         assert!(energy(velocity.x, rolls) <= energy(speed, spin) * (1.0 + 1e-15));
     }
 }
+
+/// Broke: a ball that slid off the end of a wall after more than half of the time to its grip was made to roll.
+#[test]
+fn a_ball_that_slides_off_an_end_takes_the_spin_along_that_friction_gave_it() {
+    let mut world =
+        world_with(DVec2::new(0.0, -GRAVITY), &polyline("wood", &[DVec2::new(0.1, 0.5), DVec2::new(0.6, 0.5)]));
+    launch(&mut world, DVec2::new(0.2, 0.5 + RADIUS), DVec2::new(0.75, 0.0));
+    run(&mut world, 1);
+    let grips = world.state.balls[0].slide.and_then(|slide| slide.until);
+    while support(&world, 0) != Support::None {
+        run(&mut world, 1);
+    }
+    let slid = 0.3 * GRAVITY * f64::from(u32::try_from(world.state.balls[0].flight.start.tick).unwrap_or(0)) * 1e-3;
+    let expected = -slid / (0.4 * RADIUS);
+    let spin = world.state.balls[0].spin;
+    assert!(grips.is_some_and(|grips| grips > 0.85 && grips < 0.95), "it would grip after {grips:?} s");
+    assert!((spin / expected - 1.0).abs() < 0.01, "it spins with {spin} instead of {expected}");
+}
