@@ -1,6 +1,6 @@
 //! Makes the [`View`] of a frame out of what is to be seen of a game, who is there, and what the screen says.
 
-use shared::game::Phase;
+use shared::game::{Nudge, Phase};
 use shared::physics::TargetState;
 use shared::physics::hinge::{HingeSpec, HingeState};
 use shared::table::Table;
@@ -11,6 +11,8 @@ use crate::screens::Words;
 use crate::session::Session;
 use crate::view::{BallView, ElementView, Hud, SeatView, View};
 
+/// In the order of [`View::slaps`].
+const NUDGES: [Nudge; 3] = [Nudge::FromLeft, Nudge::FromRight, Nudge::Forward];
 /// How far a pushed gate opens, radians, and how long it takes to fall shut, seconds.
 const GATE_OPEN: f64 = 1.3;
 const GATE_FALL: f64 = 0.35;
@@ -33,6 +35,8 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     view.flippers = flippers.map(|(spec, swing)| (spec.rest - swing) as f32).collect();
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();
     view.popups = popups;
+    view.cabinet = moment.cabinet.as_vec2();
+    view.slaps = NUDGES.map(|nudge| session.effects().slap_of(nudge, now));
     fill_hud(&mut view.hud, session, &moment);
     view.overlay = with_overlay.then(|| overlay_of(&moment));
     if with_overlay {
@@ -55,6 +59,12 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     for (place, &element) in table.lights.iter().enumerate() {
         if let Some(element) = view.elements.get_mut(usize::from(element)) {
             element.lit = moment.game.lights() >> place & 1 == 1;
+        }
+    }
+    let magnets = table.scene.magnets.iter().zip(&moment.game.world().state().magnets);
+    for (spec, &is_on) in magnets {
+        if let Some(element) = view.elements.get_mut(usize::from(spec.element)) {
+            element.lit = is_on;
         }
     }
     for (place, element) in view.elements.iter_mut().enumerate() {

@@ -1,11 +1,11 @@
 //! What a player's hands do, as inputs with ticks. Knows keys, but neither window nor clock.
 //!
 //! Every change of a button gets a tick of its own: a key that goes down and up within one frame is a tap of
-//! [`TAP_TICKS`], not nothing.
+//! [`TAP_TICKS`], not nothing. A nudge is no button: each press of its key is one slap, however long the key is held.
 
 use macroquad::input::KeyCode;
-use shared::game::Action;
-use shared::protocol::TAP_TICKS;
+use shared::game::{Action, Nudge};
+use shared::protocol::{NUDGE_SECONDS, TAP_TICKS};
 
 /// Seconds that the plunger's key is held for a full pull.
 const PULL_SECONDS: f64 = 1.0;
@@ -13,6 +13,9 @@ const PULL_SECONDS: f64 = 1.0;
 const LEAST_PULL: f64 = 0.08;
 /// Seconds between two changes of the pull: a hand's tremor need not be sent.
 const PULL_EVERY: f64 = 0.02;
+/// Seconds between two nudges: somewhat more than the server asks for, since the ticks of a prediction are not spaced as
+/// evenly as the frames.
+const NUDGE_EVERY: f64 = 1.2 * NUDGE_SECONDS;
 
 /// Something that keys work.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -43,6 +46,17 @@ impl Part {
     }
 }
 
+/// The nudge that a key gives, and the key's bit among those of all nudges.
+fn nudge_of_key(key: KeyCode) -> Option<(Nudge, u8)> {
+    Some(match key {
+        KeyCode::Q => (Nudge::FromLeft, 1),
+        KeyCode::E => (Nudge::FromRight, 2),
+        KeyCode::W => (Nudge::Forward, 4),
+        KeyCode::Up => (Nudge::Forward, 8),
+        _ => return None,
+    })
+}
+
 /// A button and the keys that work it.
 #[derive(Debug, Clone, Copy, Default)]
 struct Button {
@@ -60,6 +74,12 @@ pub(crate) struct Controls {
     buttons: [Button; PARTS.len()],
     /// Changes since the last frame, in order.
     changes: Vec<(Part, bool)>,
+    /// Keys of nudges that are down, one bit each.
+    nudge_keys: u8,
+    /// Nudges since the last frame, in order.
+    nudges: Vec<Nudge>,
+    /// When the last one was given, seconds.
+    nudged_at: Option<f64>,
     /// Since when the plunger is held, and the share that was told last and when.
     pull: Option<Pull>,
     /// It was the player's turn in the last frame.
@@ -76,6 +96,13 @@ struct Pull {
 impl Controls {
     /// A key went down. The keyboard's own repeats are no news.
     pub(crate) fn key_down(&mut self, key: KeyCode) {
+        if let Some((nudge, bit)) = nudge_of_key(key) {
+            if self.nudge_keys & bit == 0 {
+                self.nudges.push(nudge);
+            }
+            self.nudge_keys |= bit;
+            return;
+        }
         let Some((part, bit)) = Part::of_key(key) else { return };
         let keys = &mut self.buttons[part as usize].keys;
         if *keys == 0 {
@@ -86,6 +113,10 @@ impl Controls {
 
     /// A key went up. A button with two keys on it is released with the second.
     pub(crate) fn key_up(&mut self, key: KeyCode) {
+        if let Some((_, bit)) = nudge_of_key(key) {
+            self.nudge_keys &= !bit;
+            return;
+        }
         let Some((part, bit)) = Part::of_key(key) else { return };
         let keys = &mut self.buttons[part as usize].keys;
         if *keys == bit {
@@ -96,6 +127,7 @@ impl Controls {
 
     /// The keyboard is somebody else's now: everything is let go.
     pub(crate) fn release_all(&mut self) {
+        self.nudge_keys = 0;
         for part in PARTS {
             if std::mem::take(&mut self.buttons[part as usize].keys) != 0 {
                 self.changes.push((part, false));
@@ -107,9 +139,10 @@ impl Controls {
     /// turn (`active`) does anything; what is held when the turn begins acts from then on.
     pub(crate) fn frame(&mut self, now: f64, tick: u64, active: bool, mut act: impl FnMut(u64, Action)) {
         let mut changes = std::mem::take(&mut self.changes);
+        let nudges = std::mem::take(&mut self.nudges);
         if active != self.active {
             self.active = active;
-            self.pull = None;
+            (self.pull, self.nudged_at) = (None, None);
             for button in &mut self.buttons {
                 *button = Button { keys: button.keys, ..Button::default() };
             }
@@ -118,6 +151,13 @@ impl Controls {
         }
         if !active {
             return;
+        }
+        for nudge in nudges {
+            // Two hands at once are one slap: the server lets no more through.
+            if self.nudged_at.is_none_or(|at| now - at >= NUDGE_EVERY) {
+                self.nudged_at = Some(now);
+                act(tick, Action::Nudge(nudge));
+            }
         }
         let mut changed = [false; PARTS.len()];
         for (part, pressed) in changes {
@@ -248,6 +288,41 @@ mod tests {
         assert!((45..=52).contains(&pulls.len()) && pulls.last().unwrap().1 == u16::MAX, "{pulls:?}");
         controls.key_up(KeyCode::Space);
         assert_eq!(frame(&mut controls, 1.5, 1500), [(1500, Action::Release)]);
+    }
+
+    #[test]
+    fn each_press_of_a_nudge_is_one_and_repeats_are_no_news() {
+        let mut controls = active();
+        for (now, key, nudge) in [
+            (1.0, KeyCode::Q, Nudge::FromLeft),
+            (2.0, KeyCode::E, Nudge::FromRight),
+            (3.0, KeyCode::W, Nudge::Forward),
+            (4.0, KeyCode::Up, Nudge::Forward),
+        ] {
+            controls.key_down(key);
+            controls.key_down(key);
+            assert_eq!(frame(&mut controls, now, 100), [(100, Action::Nudge(nudge))]);
+            controls.key_down(key);
+            assert!(frame(&mut controls, now + 0.5, 600).is_empty(), "held, it is no other one");
+            controls.key_up(key);
+        }
+        // Sooner than a hand can slap again: one. And a button beside them is not held up.
+        for key in [KeyCode::Q, KeyCode::Z, KeyCode::E] {
+            controls.key_down(key);
+        }
+        assert_eq!(frame(&mut controls, 5.0, 1000), [(1000, Action::Nudge(Nudge::FromLeft)), (1000, LEFT)]);
+        controls.release_all();
+        controls.key_down(KeyCode::E);
+        let acts = frame(&mut controls, 5.1, 1060);
+        assert_eq!(acts, [(1060, Action::Nudge(Nudge::FromRight)), (1060, LEFT_UP)]);
+    }
+
+    #[test]
+    fn a_nudge_before_the_turn_is_nothing() {
+        let mut controls = Controls::default();
+        controls.key_down(KeyCode::Q);
+        controls.frame(1.0, 100, false, |_, _| panic!("not the player's turn"));
+        assert!(frame(&mut controls, 2.0, 200).is_empty());
     }
 
     #[test]

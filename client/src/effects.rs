@@ -1,7 +1,7 @@
 //! What events leave to be seen for a moment: flashes, points that float up, a line on the display.
 
 use macroquad::math::{Vec2, vec2};
-use shared::game::{GameEvent, GameEventKind, Rescue};
+use shared::game::{GameEvent, GameEventKind, Nudge, Rescue};
 use shared::table::Table;
 
 use crate::view::Popup;
@@ -23,11 +23,13 @@ pub(crate) struct Effects {
     /// (When, where, what).
     popups: Vec<(f64, Vec2, u64)>,
     message: Option<(f64, String)>,
+    /// The last nudge from each side, and when.
+    slaps: Vec<(Nudge, f64)>,
 }
 
 impl Effects {
-    /// Takes in what happened, seen at `now` seconds.
-    pub(crate) fn note(&mut self, event: &GameEvent, table: &Table, now: f64) {
+    /// Takes in what happened, seen at `now` seconds while `loose` balls were in play that no saucer holds.
+    pub(crate) fn note(&mut self, event: &GameEvent, table: &Table, loose: usize, now: f64) {
         match event.kind {
             GameEventKind::Kicked { element, .. }
             | GameEventKind::Felled { element, .. }
@@ -48,10 +50,17 @@ impl Effects {
                 }
             }
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
-            GameEventKind::Added { .. } => self.say("MULTIBALL".to_owned(), now),
+            // One that takes the place of a ball in a lock is no multiball.
+            GameEventKind::Added { .. } if loose > 0 => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
             GameEventKind::Rescued { by: Rescue::Kickers } => self.say("BALL SEARCH".to_owned(), now),
-            GameEventKind::Rescued { by: Rescue::Relaunch } => self.say("NEW BALL".to_owned(), now),
+            GameEventKind::Rescued { by: Rescue::Relaunch } => self.say("BALL RETURNED".to_owned(), now),
+            GameEventKind::Nudged { nudge } => {
+                self.slaps.retain(|(other, _)| *other != nudge);
+                self.slaps.push((nudge, now));
+            }
+            GameEventKind::Warned { .. } => self.say("DANGER".to_owned(), now),
+            GameEventKind::Tilted { .. } => self.say("TILT".to_owned(), now),
             _ => {}
         }
     }
@@ -70,7 +79,13 @@ impl Effects {
     /// How bright an element flashes, 0 to 1.
     pub(crate) fn flash_of(&self, element: usize, now: f64) -> f32 {
         let hit = self.hits.get(element).copied().flatten();
-        hit.map_or(0.0, |hit| (1.0 - (now - hit) / FLASH_SECONDS).clamp(0.0, 1.0) as f32)
+        hit.map_or(0.0, |hit| faded(hit, now))
+    }
+
+    /// How bright a nudge from that side flashes, 0 to 1.
+    pub(crate) fn slap_of(&self, nudge: Nudge, now: f64) -> f32 {
+        let since = self.slaps.iter().find(|(side, _)| *side == nudge).map(|(_, since)| *since);
+        since.map_or(0.0, |since| faded(since, now))
     }
 
     /// Points that float now. Forgets those that are gone.
@@ -92,6 +107,11 @@ impl Effects {
     }
 }
 
+/// What is left at `now` of a flash that began at `since`, 1 to 0.
+fn faded(since: f64, now: f64) -> f32 {
+    (1.0 - (now - since) / FLASH_SECONDS).clamp(0.0, 1.0) as f32
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,7 +120,7 @@ mod tests {
     fn everything_fades() {
         let table = Table::shipped("classic").unwrap().unwrap();
         let mut effects = Effects::default();
-        let mut note = |kind| effects.note(&GameEvent { tick: 0, kind }, &table, 10.0);
+        let mut note = |kind| effects.note(&GameEvent { tick: 0, kind }, &table, 1, 10.0);
         note(GameEventKind::Kicked { element: 3, speed: 1.0 });
         note(GameEventKind::Points { seat: 0, points: 500, place: Some((0.1, 0.2)) });
         note(GameEventKind::Points { seat: 0, points: 9, place: None });
@@ -114,5 +134,29 @@ mod tests {
         let popups = effects.popups(10.5);
         assert_eq!((popups.len(), popups[0].text.as_str(), popups[0].age), (1, "+500", 0.5));
         assert!(effects.popups(11.5).is_empty());
+    }
+
+    #[test]
+    fn nudges_flash_on_their_side_and_warnings_are_told() {
+        let table = Table::shipped("classic").unwrap().unwrap();
+        let mut effects = Effects::default();
+        let mut note = |kind, loose, now| effects.note(&GameEvent { tick: 0, kind }, &table, loose, now);
+        note(GameEventKind::Nudged { nudge: Nudge::FromLeft }, 1, 10.0);
+        note(GameEventKind::Warned { seat: 0 }, 1, 10.0);
+        note(GameEventKind::Nudged { nudge: Nudge::FromLeft }, 1, 11.0);
+        assert_eq!(effects.slap_of(Nudge::FromLeft, 11.0), 1.0);
+        assert_eq!((effects.slap_of(Nudge::Forward, 11.0), effects.slap_of(Nudge::FromLeft, 12.0)), (0.0, 0.0));
+        assert_eq!(effects.message(11.0), Some("DANGER"));
+    }
+
+    #[test]
+    fn a_ball_that_takes_the_place_of_a_locked_one_is_no_multiball() {
+        let table = Table::shipped("classic").unwrap().unwrap();
+        let mut effects = Effects::default();
+        let added = GameEvent { tick: 0, kind: GameEventKind::Added { seat: 0 } };
+        effects.note(&added, &table, 0, 10.0);
+        assert_eq!(effects.message(10.0), None);
+        effects.note(&added, &table, 1, 11.0);
+        assert_eq!(effects.message(11.0), Some("MULTIBALL"));
     }
 }

@@ -34,6 +34,8 @@ pub(crate) struct Moment<'a> {
     pub(crate) flippers: Vec<f64>,
     /// For each plunger, how far it is pulled, metres.
     pub(crate) plungers: Vec<f64>,
+    /// How far the table is from its place, metres.
+    pub(crate) cabinet: DVec2,
     /// When.
     pub(crate) at: Instant,
     /// Everything that does not move: turn, points, lights, targets.
@@ -50,6 +52,7 @@ impl<'a> Moment<'a> {
             balls: state.balls.iter().map(|ball| Motion::of(ball, now, dt)).collect(),
             flippers: state.flippers.iter().map(|flipper| flipper.swing).collect(),
             plungers: state.plungers.iter().map(|plunger| plunger.pull).collect(),
+            cabinet: state.cabinet.displacement,
             at: now,
             game,
         }

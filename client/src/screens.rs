@@ -57,10 +57,12 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
     let (banner, sub_banner) = standing.banner(now);
     let message = match session.effects().message(now) {
         _ if session.is_silent(now) => "NO SIGNAL".to_owned(),
+        // Whatever else there is to say: the buttons are dead.
+        _ if has_tilted(moment.game) => "TILT".to_owned(),
         Some(message) => message.to_owned(),
         None => standing.message(),
     };
-    Words { message, keys: standing.keys(), banner, sub_banner }
+    Words { message, keys: standing.keys(session.table().file.cabinet.is_some()), banner, sub_banner }
 }
 
 /// How the person at the window stands to the game.
@@ -134,7 +136,8 @@ impl Standing {
         }
     }
 
-    fn keys(&self) -> Vec<(String, String)> {
+    /// `can_nudge`: the table moves when it is nudged.
+    fn keys(&self, can_nudge: bool) -> Vec<(String, String)> {
         match self {
             Self::Attract => keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")]),
             Self::Watching { can_join: true } => {
@@ -144,7 +147,9 @@ impl Standing {
             Self::InLine(_) => keys(&[("ESC", "LEAVE THE LINE")]),
             Self::Over { .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
             Self::Plunger | Self::Turn => {
-                keys(&[("L SHIFT, Z", "LEFT"), ("R SHIFT, /", "RIGHT"), ("SPACE", "PLUNGER"), ("ESC", "LEAVE")])
+                let nudge: &[_] = if can_nudge { &[("Q, W, E", "NUDGE")] } else { &[] };
+                let play: &[_] = &[("L SHIFT, Z", "LEFT"), ("R SHIFT, /", "RIGHT"), ("SPACE", "PLUNGER")];
+                keys(&[play, nudge, &[("ESC", "LEAVE")]].concat())
             }
             Self::Waiting(_) => keys(&[("ESC", "LEAVE")]),
         }
@@ -165,6 +170,11 @@ impl Standing {
             _ => Default::default(),
         }
     }
+}
+
+/// Whether a game has tilted, and the ball is not lost yet.
+fn has_tilted(game: &Game) -> bool {
+    game.tilt().tilted && matches!(game.phase(), Phase::Play { serve_in: 0, .. })
 }
 
 /// Whether a ball lies where the plunger can launch it.

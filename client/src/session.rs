@@ -215,6 +215,7 @@ impl Session {
         self.ping(now, connection);
         let dt = self.table.scene.tick_seconds;
         let Some(live) = self.clock.tick_at(now) else { return };
+        let loose = self.moment().map_or(0, |moment| moment.balls.iter().filter(|ball| !ball.is_held).count());
         let Some(newest) = self.snapshots.newest() else { return };
         let lead = self.lead.at(now, MARGIN, MOST_LEAD) / dt;
         let turn = self.seat.filter(|&seat| newest.phase().has_turn(seat));
@@ -229,7 +230,7 @@ impl Session {
             let (from, effects) = (self.events_shown, &mut self.effects);
             self.snapshots.take_events(self.shown, |event| {
                 if event.tick >= from {
-                    effects.note(&event, &self.table, now);
+                    effects.note(&event, &self.table, loose, now);
                 }
             });
             self.events_shown = from.max(self.shown.max(0.0) as u64);
@@ -257,7 +258,7 @@ impl Session {
         let (from, effects) = (self.events_shown, &mut self.effects);
         prediction.advance(target.max(0.0) as u64, |event| {
             if event.tick >= from {
-                effects.note(event, &self.table, now);
+                effects.note(event, &self.table, loose, now);
             }
         });
         self.events_shown = from.max(prediction.tick());

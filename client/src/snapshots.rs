@@ -112,6 +112,7 @@ fn between<'a>(earlier: &'a Game, later: &Game, tick: f64) -> Moment<'a> {
         balls: here.chain(gone.map(|ball| Motion::of(ball, instant(tick, dt), dt))).collect(),
         flippers: from.flippers.iter().zip(&to.flippers).map(|(a, b)| mix(a.swing, b.swing)).collect(),
         plungers: from.plungers.iter().zip(&to.plungers).map(|(a, b)| mix(a.pull, b.pull)).collect(),
+        cabinet: from.cabinet.displacement.lerp(to.cabinet.displacement, share),
         at: instant(tick, dt),
         game: earlier,
     }

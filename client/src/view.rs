@@ -13,6 +13,10 @@ pub(crate) struct View {
     pub(crate) flippers: Vec<f32>,
     /// For each plunger, in the table's order: metres that the head is pulled back (0: at rest).
     pub(crate) plungers: Vec<f32>,
+    /// How far the table is from its place, metres, since it was nudged.
+    pub(crate) cabinet: Vec2,
+    /// 1 at the moment of a nudge from the left, from the right and from below, falling to 0.
+    pub(crate) slaps: [f32; 3],
     /// For each element of the table, by its place in the file: lit light, fallen target, turned plate.
     pub(crate) elements: Vec<ElementView>,
     /// Points that float up where they were made.
@@ -41,7 +45,7 @@ pub(crate) struct BallView {
 /// What an element looks like just now.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub(crate) struct ElementView {
-    /// A light that is lit.
+    /// A light that is lit, a magnet that is on.
     pub(crate) lit: bool,
     /// A drop target that has fallen.
     pub(crate) down: bool,

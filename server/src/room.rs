@@ -7,7 +7,9 @@ use std::time::Duration;
 
 use bytes::Bytes;
 use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, Rescue, SEATS};
-use shared::protocol::{ClientMessage, MOST_EVENTS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS};
+use shared::protocol::{
+    ClientMessage, MOST_EVENTS, NUDGE_SECONDS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS,
+};
 use tokio::sync::{broadcast, mpsc, oneshot};
 use tokio::time::{Instant, MissedTickBehavior};
 
@@ -28,8 +30,8 @@ const MOST_LEAD: f64 = 0.25;
 const MOST_PENDING: usize = 128;
 /// Seconds without a game after which the bot begins one.
 const BOT_PATIENCE: f64 = 3.0;
-/// Things of a seat that a control works: two flippers and the plunger.
-const PARTS: usize = 3;
+/// Things of a seat that a control works: two flippers, the plunger and the table itself.
+const PARTS: usize = 4;
 
 /// What connections ask of the room.
 #[derive(Debug)]
@@ -238,6 +240,8 @@ impl Room {
 
     /// A player's control: at the tick it is stamped with if that is near enough ahead, else as soon as possible. Two
     /// controls of one part that come late together keep their distance, up to a tap's: else a late tap would be none.
+    /// Between two nudges is always a slap's time, and those that would wait for too long are dropped: else a flood of
+    /// them, all in one tick, would hurl the table.
     fn act(&mut self, seat: u8, asked: u64, action: Action) {
         let now = self.game.tick();
         let latest = now + (MOST_LEAD / self.game.table().scene.tick_seconds) as u64;
@@ -247,11 +251,20 @@ impl Room {
         }
         let part = match action {
             Action::Flipper { right, .. } => usize::from(right),
-            _ => PARTS - 1,
+            Action::Nudge(_) => PARTS - 1,
+            _ => PARTS - 2,
         };
         let last = &mut self.stamps[usize::from(seat)][part];
-        let distance = asked.saturating_sub(last.asked).min(TAP_TICKS);
-        let tick = asked.clamp(now, latest).max(last.acts + distance).min(latest);
+        let is_nudge = matches!(action, Action::Nudge(_));
+        let distance = match asked.saturating_sub(last.asked) {
+            _ if is_nudge => (NUDGE_SECONDS / self.game.table().scene.tick_seconds) as u64,
+            apart => apart.min(TAP_TICKS),
+        };
+        let tick = asked.clamp(now, latest).max(last.acts + distance);
+        if is_nudge && tick > latest {
+            return;
+        }
+        let tick = tick.min(latest);
         *last = Stamp { asked, acts: tick };
         self.account.controls += 1;
         self.pending.push(Input { tick, seat, action });

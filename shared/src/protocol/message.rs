@@ -37,7 +37,7 @@ pub enum ClientMessage {
     Act {
         /// The tick in which it acts; a tick that is past means now.
         tick: u64,
-        /// A flipper or the plunger; a seat is asked for by the other messages.
+        /// A flipper, the plunger or a nudge; a seat is asked for by the other messages.
         action: Action,
     },
     /// Asks for a seat, or, if seated, for the next game to start.

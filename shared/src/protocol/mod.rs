@@ -26,5 +26,8 @@ pub const SNAPSHOT_HZ: u32 = 60;
 /// Ticks that a tap lasts whose press and release came within one frame of a client.
 pub const TAP_TICKS: u64 = 10;
 
+/// Seconds from one nudge of a player to the next at the least: hands slap no faster.
+pub const NUDGE_SECONDS: f64 = 0.05;
+
 #[cfg(test)]
 mod tests;

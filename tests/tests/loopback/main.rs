@@ -7,6 +7,8 @@ mod harness;
 mod handshake;
 /// Nonsense, floods and silence: they cost their sender the connection and nobody else anything.
 mod hostile;
+/// Nudging: the table moves for everybody, and a fit of nudges tilts the game.
+mod nudge;
 /// One player: from the first key to game over.
 mod play;
 /// Seats, turns and the line.
