@@ -10,6 +10,9 @@ use crate::view::Popup;
 const FLASH_SECONDS: f64 = 0.33;
 /// Seconds that points float.
 const POPUP_SECONDS: f64 = 1.0;
+/// Points are added to those that were made less than so many seconds ago and less than so many metres away.
+const SAME_POPUP: f64 = 0.3;
+const POPUP_APART: f32 = 0.01;
 /// Seconds that a line stays on the display.
 const MESSAGE_SECONDS: f64 = 2.5;
 /// Points that float at once; the oldest go first.
@@ -39,10 +42,7 @@ impl Effects {
             | GameEventKind::Held { element }
             | GameEventKind::Ejected { element } => self.flash(element, now),
             GameEventKind::Points { points, place: Some((x, y)), .. } => {
-                if self.popups.len() == MOST_POPUPS {
-                    self.popups.remove(0);
-                }
-                self.popups.push((now, vec2(x, y), points));
+                self.pop_up(points, vec2(x, y), now);
             }
             GameEventKind::Message { place } => {
                 if let Some(text) = table.rules.messages.get(usize::from(place)) {
@@ -63,6 +63,21 @@ impl Effects {
             GameEventKind::Tilted { .. } => self.say("TILT".to_owned(), now),
             _ => {}
         }
+    }
+
+    /// Lets points float; what is made again and again in one place, as a spinner does, is one sum that grows.
+    fn pop_up(&mut self, points: u64, place: Vec2, now: f64) {
+        let is_same = |(born, other, _): &&mut (f64, Vec2, u64)| {
+            now - *born < SAME_POPUP && other.distance_squared(place) < POPUP_APART * POPUP_APART
+        };
+        if let Some((born, _, sum)) = self.popups.iter_mut().find(is_same) {
+            (*born, *sum) = (now, sum.saturating_add(points));
+            return;
+        }
+        if self.popups.len() == MOST_POPUPS {
+            self.popups.remove(0);
+        }
+        self.popups.push((now, place, points));
     }
 
     /// Puts a line on the display.
@@ -131,8 +146,11 @@ mod tests {
         assert_eq!(effects.flash_of(3, 10.5), 0.0);
         assert_eq!(effects.message(12.0), Some(table.rules.messages[0].as_str()));
         assert_eq!(effects.message(12.6), None);
-        let popups = effects.popups(10.5);
-        assert_eq!((popups.len(), popups[0].text.as_str(), popups[0].age), (1, "+500", 0.5));
+        effects.pop_up(70, vec2(0.1, 0.205), 10.05);
+        effects.pop_up(3, vec2(0.3, 0.2), 10.0);
+        let popups = effects.popups(10.55);
+        assert_eq!((popups.len(), popups[1].text.as_str()), (2, "+3"));
+        assert_eq!((popups.len(), popups[0].text.as_str(), popups[0].age), (2, "+570", 0.5));
         assert!(effects.popups(11.5).is_empty());
     }
 

@@ -1,7 +1,7 @@
 //! One texture that holds every sprite, and the quads of a frame that are cut out of it. With everything in one
 //! texture and one way of blending (premultiplied alpha), a frame is a handful of draw calls.
 
-use macroquad::color::Color;
+use macroquad::color::{Color, WHITE};
 use macroquad::math::{Mat2, Rect, Vec2, vec2};
 use macroquad::models::{Mesh, Vertex, draw_mesh};
 use macroquad::texture::{FilterMode, Image, Texture2D};
@@ -121,6 +121,13 @@ impl Batch {
     pub(super) fn place(&mut self, sprite: Sprite, center: Vec2, tint: Color) {
         let corner = center - sprite.size / 2.0;
         self.stretch(sprite, Rect::new(corner.x, corner.y, sprite.size.x, sprite.size.y), tint);
+    }
+
+    /// The same, `scale` times as large. At 1 it is exactly as it was painted.
+    pub(super) fn scaled(&mut self, sprite: Sprite, center: Vec2, scale: f32) {
+        let size = sprite.size * scale;
+        let corner = center - size / 2.0;
+        self.stretch(sprite, Rect::new(corner.x, corner.y, size.x, size.y), WHITE);
     }
 
     /// A sprite that fills a rectangle.

@@ -12,6 +12,7 @@ use super::inserts::metres;
 use super::layout::Layout;
 use super::palette::{AMBER, ICE, IVORY, NIGHT, PLASTIC, PLASTIC_DEEP, PRINT, RED, RUBBER, STEEL};
 use super::playfield::wood;
+use super::ramps::floor_of;
 use super::shape::{Shape, star};
 
 /// How far things stand above the board, metres: it sets the length of shadows.
@@ -46,20 +47,39 @@ struct Piece {
 /// Paints everything that stands on the board.
 pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
     apron(canvas, layout, table);
-    let pieces: Vec<Piece> = table.elements.iter().flat_map(|element| pieces(layout, table, element)).collect();
-    for piece in &pieces {
-        let height = layout.length(HEIGHT) * if matches!(piece.look, Look::Rail { .. }) { 0.7 } else { 1.0 };
-        canvas.shadow(&piece.shape, height, 0.62);
-    }
-    for piece in &pieces {
-        paint_piece(canvas, layout, piece);
-    }
-    for element in &table.elements {
+    let on_board = table.elements.iter().filter(|element| floor_of(element) == 0);
+    let pieces: Vec<Piece> = on_board.clone().flat_map(|element| pieces(layout, table, element)).collect();
+    paint_pieces(canvas, layout, &pieces);
+    for element in on_board {
         if let ElementFile::OneWay(gate) = element {
             gate_wire(canvas, layout, layout.written(gate.from), layout.written(gate.to));
         }
     }
     frame(canvas, layout);
+}
+
+/// Paints what stands on the floors above the board, but for their rails.
+pub(super) fn paint_upper(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
+    let above = table.elements.iter().filter(|element| floor_of(element) > 0);
+    let is_rail = |element: &&ElementFile| matches!(element, ElementFile::Wall(_) | ElementFile::Arc(_));
+    let standing = above.clone().filter(|element| !is_rail(element));
+    let pieces: Vec<Piece> = standing.flat_map(|element| pieces(layout, table, element)).collect();
+    paint_pieces(canvas, layout, &pieces);
+    for element in above {
+        if let ElementFile::OneWay(gate) = element {
+            gate_wire(canvas, layout, layout.written(gate.from), layout.written(gate.to));
+        }
+    }
+}
+
+fn paint_pieces(canvas: &mut Canvas, layout: &Layout, pieces: &[Piece]) {
+    for piece in pieces {
+        let height = layout.length(HEIGHT) * if matches!(piece.look, Look::Rail { .. }) { 0.7 } else { 1.0 };
+        canvas.shadow(&piece.shape, height, 0.62);
+    }
+    for piece in pieces {
+        paint_piece(canvas, layout, piece);
+    }
 }
 
 /// What an element looks like while it stands still. Things that move or change are sprites instead.
@@ -116,14 +136,17 @@ fn wall_pieces(layout: &Layout, table: &TableFile, wall: &WallFile) -> Vec<Piece
     let rubber = layout.length(0.0030).max(1.0);
     let rail = layout.length(0.0022).max(1.0);
     let edge = |radius: f32, look: Look| Piece { shape: Shape::Path { points: points.clone(), radius }, look };
-    if first == last {
+    let is_closed = first == last;
+    // One around the place where balls begin is no island but the frame.
+    let is_frame = is_closed && Shape::Polygon(points.clone()).distance(layout.written(table.ball.start)) < 0.0;
+    if is_closed && !is_frame {
         return vec![Piece { shape: Shape::Polygon(points), look: Look::Island }];
     }
     if closed_by_slingshot(table, *first, *last).is_some() {
         let body = Piece { shape: Shape::Polygon(points.clone()), look: Look::Slingshot };
         return vec![body, edge(rubber * 0.8, Look::Rubber { radius: rubber * 0.8 })];
     }
-    if wall.points.len() > 2 && leans_on_wall(table, wall, *first, *last) {
+    if !is_closed && wall.points.len() > 2 && leans_on_wall(table, wall, *first, *last) {
         let body = Piece { shape: Shape::Polygon(points.clone()), look: Look::Island };
         return vec![body, edge(rubber * 0.8, Look::Rubber { radius: rubber * 0.8 })];
     }

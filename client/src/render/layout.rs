@@ -12,6 +12,12 @@ pub(super) struct PixelSize {
 /// Wood around the playfield, metres.
 const FRAME: f32 = 0.020;
 
+/// How much more a nudged table moves in the picture than it does.
+const SHAKE: f32 = 4.0;
+
+/// The most that it moves in the picture, metres on the table: 8 pixels in a window of 1280 by 720.
+const MOST_SHAKE: f32 = 0.012;
+
 /// Graphics cards of the oldest kind that macroquad runs on hold textures up to this size. A larger window is painted
 /// at this size and enlarged.
 const LARGEST: f32 = 4096.0;
@@ -96,6 +102,14 @@ impl Layout {
         Self { size, cabinet, scale, main_panel, side_panel, table }
     }
 
+    /// The same with the table off its place by so many metres. A real table moves by a millimetre: here it is more, so that
+    /// it is seen, and whole pixels, so that everything on it stays sharp.
+    pub(super) fn shaken(&self, metres: Vec2) -> Self {
+        let away = (metres * SHAKE).clamp_length_max(MOST_SHAKE) * vec2(1.0, -1.0) * self.scale;
+        let cabinet = self.cabinet.offset(away.round());
+        Self { cabinet, ..self.clone() }
+    }
+
     /// The pixel of a point on the table.
     pub(super) fn point(&self, metres: Vec2) -> Vec2 {
         let left = self.cabinet.x + FRAME * self.scale;
@@ -172,6 +186,18 @@ mod tests {
         let (low, high) = (layout.point(vec2(0.1, 0.0)), layout.point(vec2(0.1, 1.0)));
         assert!(high.y < low.y && (low.y - high.y - layout.length(1.0)).abs() < 1e-3);
         assert!((layout.point(Vec2::ZERO) - vec2(layout.playfield().x, layout.playfield().bottom())).length() < 1e-3);
+    }
+
+    #[test]
+    fn a_nudged_table_moves_by_some_pixels_and_takes_its_points_along() {
+        let layout = Layout::new(PixelSize { width: 1280, height: 720 }, TABLE);
+        let shaken = layout.shaken(vec2(0.001, 0.0015));
+        let away = shaken.point(vec2(0.1, 0.2)) - layout.point(vec2(0.1, 0.2));
+        assert_eq!(away, vec2(3.0, -4.0));
+        assert_eq!((shaken.main_panel, shaken.side_panel), (layout.main_panel, layout.side_panel));
+        let most = layout.shaken(vec2(9.0, 0.0)).point(Vec2::ZERO) - layout.point(Vec2::ZERO);
+        assert!(most.x > 5.0 && most.x < 10.0, "{most}");
+        assert_eq!(layout.shaken(Vec2::ZERO), layout);
     }
 
     #[test]

@@ -1,26 +1,31 @@
-//! Standing targets, spinners, gates and saucers: what of them stands still is painted once, what moves is drawn from the
+//! Standing targets, spinners, gates, saucers and magnets: what of them stands still is painted once, what moves is drawn from the
 //! view with every frame.
 
+use macroquad::color::Color;
 use macroquad::math::{Rect, Vec2, Vec3};
 use shared::table::TableFile;
-use shared::table::format::{ElementFile, Point, SaucerFile, TargetFile};
+use shared::table::format::{ElementFile, MagnetFile, Point, SaucerFile, TargetFile};
 
 use super::canvas::{Canvas, LIGHT, ink, smooth};
 use super::layout::Layout;
-use super::palette::{AMBER, DECOR, ICE, IVORY, NIGHT, RED, STEEL, tint};
+use super::palette::{AMBER, COPPER, DECOR, ICE, IVORY, NIGHT, RED, STEEL, shine, tint};
+use super::ramps::floor_of;
 use super::scene::Stage;
-use super::shape::Shape;
+use super::shape::{Shape, direction};
 use crate::view::{BallView, ElementView};
 
 /// How far axles hang above the board, metres: it sets the length of shadows.
 const AXLE_HEIGHT: f64 = 0.0095;
+/// Windings of a magnet's coil that are seen.
+const WINDINGS: f32 = 4.0;
 /// Share of its line that a plate is wide; the rest is axle.
 const PLATE: f32 = 0.74;
 
-/// Paints what stands still: cups of saucers, axles of spinners and gates.
-pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
-    for element in &table.elements {
+/// Paints what stands still, on the board or above it: coils of magnets, cups of saucers, axles of spinners and gates.
+pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile, above: bool) {
+    for element in table.elements.iter().filter(|element| (floor_of(element) > 0) == above) {
         match element {
+            ElementFile::Magnet(magnet) => coil(canvas, layout, magnet),
             ElementFile::Saucer(saucer) => cup(canvas, layout, table, saucer),
             ElementFile::Spinner(spinner) => axle(canvas, layout, spinner.from, spinner.to),
             ElementFile::Gate(gate) => axle(canvas, layout, gate.from, gate.to),
@@ -49,6 +54,33 @@ fn cup(canvas: &mut Canvas, layout: &Layout, table: &TableFile, saucer: &SaucerF
         ink(floor.lerp(STEEL * 0.55, wall * lit * 0.9), 1.0)
     });
     canvas.outline(&hole, 1.0, ink(Vec3::ZERO, 0.8));
+}
+
+/// The windings of a coil, seen through the board, around its core; and how far it reaches, as a faint line.
+fn coil(canvas: &mut Canvas, layout: &Layout, magnet: &MagnetFile) {
+    let center = layout.written(magnet.center);
+    let core = layout.length(magnet.core);
+    let whole = coil_radius(layout, magnet);
+    let winding = (whole - core).max(1.0) / WINDINGS;
+    let disc = Shape::circle(center, whole);
+    canvas.fill(&disc, |p, _| {
+        let away = p.distance(center);
+        let tilt = (p - center).normalize_or_zero().dot(LIGHT);
+        if away < core {
+            return ink(STEEL * (0.30 + 0.16 * tilt), 0.9);
+        }
+        // Each winding is a wire: bright on its crest.
+        let crest = ((away - core) / winding).fract() - 0.5;
+        ink(COPPER * (0.40 + 0.55 * (1.0 - 4.0 * crest * crest) + 0.15 * tilt), 0.8)
+    });
+    canvas.outline(&disc, 1.0, ink(Vec3::ZERO, 0.7));
+    canvas.outline(&Shape::circle(center, core), 1.0, ink(Vec3::ZERO, 0.6));
+    canvas.outline(&Shape::circle(center, layout.length(magnet.radius)), 1.0, ink(COPPER, 0.22));
+}
+
+/// A coil is somewhat larger than its core, but no larger than its field.
+fn coil_radius(layout: &Layout, magnet: &MagnetFile) -> f32 {
+    layout.length((magnet.core * 1.9).min(magnet.radius.max(magnet.core)))
 }
 
 /// A wire between two brackets.
@@ -89,6 +121,32 @@ impl Stage<'_> {
         self.batch.bar(bar, a, b, depth * 1.1, tint(RED, 1.0));
         if state.flash > 0.0 {
             self.glow(center, self.layout.length(0.070), AMBER, state.flash * 0.9);
+        }
+    }
+
+    /// A magnet that is on: its coil glows, and rings of light run into it.
+    pub(super) fn magnet(&mut self, magnet: &MagnetFile, clock: f32) {
+        let center = self.layout.written(magnet.center);
+        let coil = coil_radius(self.layout, magnet);
+        let reach = self.layout.length(magnet.radius);
+        self.glow(center, coil * 3.4, ICE, 0.75);
+        self.glow(center, coil * 1.5, IVORY, 0.45);
+        let phase = (clock * 1.6).fract();
+        for ring in 0..3_u8 {
+            let share = 1.0 - (phase + f32::from(ring) / 3.0).fract();
+            let radius = coil + (reach - coil) * share;
+            let strength = 0.30 * (1.0 - share) * share * 4.0;
+            self.ring(center, radius, shine(ICE, strength));
+        }
+    }
+
+    /// A thin circle.
+    fn ring(&mut self, center: Vec2, radius: f32, color: Color) {
+        const SIDES: u8 = 40;
+        let corner = |side: u8| center + direction(f32::from(side) / f32::from(SIDES) * std::f32::consts::TAU) * radius;
+        let width = self.layout.length(0.0016).max(1.2);
+        for side in 0..SIDES {
+            self.batch.bar(self.sprites.bar, corner(side), corner(side + 1), width, color);
         }
     }
 

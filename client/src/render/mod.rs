@@ -1,7 +1,7 @@
 //! Draws a [`View`]: the table, the panels beside it, and nothing else of the client.
 //!
 //! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
-//! `furniture`, `mechanisms`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
+//! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
 //! `atlas`) and placed by `scene`, `mechanisms`, `overlay` and `hud`. `layout` and `panels` say where; `back_buffer` shows whole frames only.
 
 mod atlas;
@@ -18,15 +18,16 @@ mod overlay;
 mod palette;
 mod panels;
 mod playfield;
+mod ramps;
 mod scene;
 mod shape;
 mod sprites;
 
 use macroquad::color::WHITE;
 use macroquad::material::{Material, MaterialParams, gl_use_default_material, gl_use_material, load_material};
-use macroquad::math::vec2;
+use macroquad::math::{Rect, vec2};
 use macroquad::miniquad::{BlendFactor, BlendState, BlendValue, Equation, PipelineParams, ShaderSource};
-use macroquad::texture::{FilterMode, Texture2D, draw_texture};
+use macroquad::texture::{DrawTextureParams, FilterMode, Texture2D, draw_texture, draw_texture_ex};
 use macroquad::window::{screen_dpi_scale, screen_height, screen_width};
 use shared::table::TableFile;
 
@@ -38,6 +39,7 @@ use hud::Writer;
 use layout::{Layout, PixelSize};
 use overlay::OverlayPainter;
 use panels::Panels;
+use ramps::Ramps;
 use scene::Stage;
 use sprites::Sprites;
 
@@ -56,6 +58,8 @@ struct Art {
     panels: Panels,
     /// All that stands still, the whole picture.
     still: Texture2D,
+    /// What of it lies above balls on the board, on a clear ground.
+    above: Option<Texture2D>,
     sprites: Sprites<Sprite>,
     fonts: Fonts,
     batch: Batch,
@@ -109,16 +113,27 @@ fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &Vie
     if counts.0 != counts.1 {
         return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
     }
-    let Art { layout, panels, still, sprites, fonts, batch } = art;
+    let Art { layout, panels, still, above, sprites, fonts, batch } = art;
+    let resting = &*layout;
+    let layout = &resting.shaken(view.cabinet);
 
     // 1. What stands still covers every pixel of the last frame.
     blending.overwrite();
     draw_texture(still, 0.0, 0.0, WHITE);
+    if layout != resting {
+        // A nudged table once more, beside its place: its frame hides the one below.
+        draw_shifted(still, resting, layout);
+    }
 
     // 2. What moves on the table.
     blending.layer();
+    let draw_above = || {
+        if let Some(above) = above {
+            draw_shifted(above, resting, layout);
+        }
+    };
     let mut stage = Stage { layout, panels, table, sprites, fonts, batch };
-    stage.draw(view);
+    stage.draw(view, draw_above);
 
     // 3. What the physics sees of it.
     if let Some(overlay) = &view.overlay {
@@ -141,14 +156,28 @@ impl Art {
         let picture = canvas::paint_in_bands(size.width, size.height, |canvas| {
             cabinet::paint(canvas, &layout, &panels);
             playfield::paint(canvas, &layout, table);
-            mechanisms::paint(canvas, &layout, table);
+            mechanisms::paint(canvas, &layout, table, false);
             furniture::paint(canvas, &layout, table);
         });
-        let still = Texture2D::from_image(&picture);
-        still.set_filter(FilterMode::Nearest);
+        let texture = |picture| {
+            let texture = Texture2D::from_image(picture);
+            texture.set_filter(FilterMode::Nearest);
+            texture
+        };
+        let ramps = Ramps::of(&layout, table);
+        let above = ramps.map(|ramps| canvas::paint_in_bands(size.width, size.height, |canvas| ramps.paint(canvas)));
+        let (still, above) = (texture(&picture), above.as_ref().map(texture));
         let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
-        Self { layout, panels, still, sprites, fonts, batch }
+        Self { layout, panels, still, above, sprites, fonts, batch }
     }
+}
+
+/// The table's part of a whole picture, where a layout has it.
+fn draw_shifted(picture: &Texture2D, resting: &Layout, layout: &Layout) {
+    let Rect { x, y, w, h } = resting.cabinet;
+    let source = Rect::new(x, y, w.floor(), h.floor());
+    let params = DrawTextureParams { source: Some(source), dest_size: Some(source.size()), ..Default::default() };
+    draw_texture_ex(picture, layout.cabinet.x, layout.cabinet.y, WHITE, params);
 }
 
 /// How colours are laid over each other.

@@ -22,6 +22,8 @@ pub(super) const WOOD: Vec3 = hex(0x5A_30_18);
 pub(super) const WOOD_DARK: Vec3 = hex(0x26_12_0A);
 /// Rails, gates, the ball.
 pub(super) const STEEL: Vec3 = hex(0xB4_BE_CE);
+/// Coils.
+pub(super) const COPPER: Vec3 = hex(0xC4_76_3C);
 /// Rubber rings.
 pub(super) const RUBBER: Vec3 = hex(0xB9_B4_A6);
 /// Caps of bumpers and bodies of flippers.

@@ -13,6 +13,7 @@ use super::inserts::middle;
 use super::layout::Layout;
 use super::palette::{self, AMBER, ICE, IVORY, NIGHT, RED, RUBBER, STEEL, shine, tint};
 use super::panels::Panels;
+use super::ramps::floor_of;
 use super::sprites::{Own, Pinned, Sprites};
 use crate::view::{BallView, ElementView, Popup, View};
 
@@ -31,17 +32,23 @@ const STREAK_SPEED: f32 = 0.7;
 /// A streak is as long as the way of a ball in this time, seconds.
 const STREAK_TIME: f32 = 0.040;
 
+/// How much larger a ball looks for each floor that it is nearer to the eye.
+const NEARER: f32 = 1.08;
+/// Floors above this one look no nearer.
+const HIGHEST: u8 = 3;
+/// How far a ball's shadow falls, in radii: of one on the board, and more for each floor above.
+const SHADOW: (f64, f64) = (0.55, 1.1);
+
 impl Stage<'_> {
-    /// Draws everything on the table, from the board upwards.
-    pub(super) fn draw(&mut self, view: &View) {
-        let table = self.table;
-        let states = || table.elements.iter().zip(&view.elements).enumerate();
+    /// Draws everything on the table, from the board upwards; `draw_above` draws what stands still over the balls on it.
+    pub(super) fn draw(&mut self, view: &View, draw_above: impl FnOnce()) {
         // 1. What is level with the board.
-        for (index, (element, state)) in states() {
+        for (index, (element, state)) in self.table.elements.iter().zip(&view.elements).enumerate() {
             match element {
                 ElementFile::Light(light) if shows_lit(view, index, *state, light.center) => {
                     self.lit_insert(index, light.center, palette::light(light.color));
                 }
+                ElementFile::Magnet(magnet) if state.lit => self.magnet(magnet, view.clock),
                 ElementFile::Rollover(line) => self.rollover(line, state.flash),
                 ElementFile::Saucer(saucer) if state.flash > 0.0 => {
                     self.glow(self.layout.written(saucer.center), self.layout.length(0.085), ICE, state.flash);
@@ -52,9 +59,28 @@ impl Stage<'_> {
         for ball in view.balls.iter().filter(|ball| ball.held) {
             self.held_ball(*ball);
         }
-        let on_floor =
-            |is_upper: bool| view.balls.iter().filter(move |ball| !ball.held && (ball.floor > 0) == is_upper);
-        // 2. What stands lower than a ball's centre, and all shadows.
+        // 2. The board, its flippers and plungers, the balls on it.
+        self.floor(view, false);
+        // 3. The same above it, over the lanes there.
+        self.batch.flush();
+        draw_above();
+        self.floor(view, true);
+        // 4. What floats above.
+        self.slaps(view.slaps);
+        for popup in &view.popups {
+            self.popup(popup);
+        }
+    }
+
+    /// What stands on the board, or above it, and the balls there.
+    fn floor(&mut self, view: &View, above: bool) {
+        let table = self.table;
+        let states = || {
+            let all = table.elements.iter().zip(&view.elements).enumerate();
+            all.filter(move |(_, (element, _))| (floor_of(element) > 0) == above)
+        };
+        let balls = || view.balls.iter().filter(move |ball| !ball.held && (ball.floor > 0) == above);
+        // 1. What stands lower than a ball's centre, and all shadows.
         let mut plungers = view.plungers.iter();
         for (_, (element, state)) in states() {
             match element {
@@ -77,14 +103,14 @@ impl Stage<'_> {
         for (index, flipper, angle) in &flippers {
             self.flipper(*index, flipper, *angle, true);
         }
-        for ball in on_floor(false) {
+        for ball in balls() {
             self.ball_shadow(*ball);
         }
-        // 3. Flippers, balls, what hangs over balls, caps, balls on the floors above.
+        // 2. Flippers, balls, what hangs over balls, caps.
         for (index, flipper, angle) in &flippers {
             self.flipper(*index, flipper, *angle, false);
         }
-        for ball in on_floor(false) {
+        for ball in balls() {
             self.ball(*ball);
         }
         for (index, (element, state)) in states() {
@@ -97,13 +123,18 @@ impl Stage<'_> {
                 _ => {}
             }
         }
-        for ball in on_floor(true) {
-            self.ball_shadow(*ball);
-            self.ball(*ball);
-        }
-        // 4. What floats above.
-        for popup in &view.popups {
-            self.popup(popup);
+    }
+
+    /// Light along the side of the table that a hand slaps: left, right, below.
+    fn slaps(&mut self, [left, right, below]: [f32; 3]) {
+        let field = self.layout.playfield();
+        let reach = field.w * 0.16;
+        let tall = |x: f32| Rect::new(x - reach / 2.0, field.y + field.h * 0.45, reach, field.h * 0.5);
+        let wide = Rect::new(field.x + field.w * 0.2, field.bottom() - reach / 2.0, field.w * 0.6, reach);
+        for (area, strength) in [(tall(field.x), left), (tall(field.right()), right), (wide, below)] {
+            if strength > 0.0 {
+                self.batch.stretch(self.sprites.halo, area, shine(AMBER, 0.8 * strength));
+            }
         }
     }
 
@@ -234,8 +265,9 @@ impl Stage<'_> {
     }
 
     fn ball_shadow(&mut self, ball: BallView) {
-        let at = self.layout.point(ball.position) - LIGHT * self.layout.length(self.table.ball.radius * 0.55);
-        self.batch.place(self.sprites.ball_shadow, at, WHITE);
+        let height = self.table.ball.radius * (SHADOW.0 + SHADOW.1 * f64::from(ball.floor.min(HIGHEST)));
+        let at = self.layout.point(ball.position) - LIGHT * self.layout.length(height);
+        self.batch.scaled(self.sprites.ball_shadow, at, nearness(ball));
     }
 
     fn ball(&mut self, ball: BallView) {
@@ -247,7 +279,7 @@ impl Stage<'_> {
             let strength = ((speed - STREAK_SPEED) / 1.5).min(1.0) * 0.5;
             self.batch.bar(self.sprites.streak, at - way * STREAK_TIME, at, width, shine(ICE, strength));
         }
-        self.batch.place(self.sprites.ball, at, WHITE);
+        self.batch.scaled(self.sprites.ball, at, nearness(ball));
     }
 
     fn bumper(&mut self, index: usize, center: Vec2, flash: f32) {
@@ -277,6 +309,11 @@ impl Stage<'_> {
         self.fonts.line(self.batch, &popup.text, corner + dark, pitch, tint(Vec3::ZERO, alpha * 0.7));
         self.fonts.line(self.batch, &popup.text, corner, pitch, tint(AMBER.lerp(Vec3::ONE, 0.35), alpha));
     }
+}
+
+/// How large a ball looks beside one on the board.
+fn nearness(ball: BallView) -> f32 {
+    NEARER.powi(i32::from(ball.floor.min(HIGHEST)))
 }
 
 /// Whether an insert shines: as the rules say in a game, in waves that run up the table while nobody plays.
