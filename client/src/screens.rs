@@ -58,6 +58,7 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
     let message = match session.effects().message(now) {
         _ if session.is_silent(now) => "NO SIGNAL".to_owned(),
         // Whatever else there is to say: the buttons are dead.
+        _ if has_tilted(moment.game) && standing == Standing::Plunger => "TILT: HOLD SPACE".to_owned(),
         _ if has_tilted(moment.game) => "TILT".to_owned(),
         Some(message) => message.to_owned(),
         None => standing.message(),

@@ -67,6 +67,26 @@ fn a_tilted_game_hears_no_button_and_counts_nothing_until_the_next_ball() {
     assert!(!game.tilt().tilted);
 }
 
+/// The ball lay on the plunger when the game tilted, nothing could launch it, and the game never went on.
+#[test]
+fn a_ball_on_the_plunger_of_a_tilted_game_can_be_launched_and_lost() {
+    let mut game = started();
+    while !game.tilt().tilted {
+        act(&mut game, &[Action::Nudge(Nudge::Forward)]);
+        wait(&mut game, 170);
+    }
+    for _ in 0..10 {
+        act(&mut game, &[Action::Pull(u16::MAX)]);
+        wait(&mut game, 1500);
+        act(&mut game, &[Action::Release]);
+        if wait(&mut game, 20_000).contains(&GameEventKind::Lost { seat: 0 }) {
+            assert!(!game.tilt().tilted, "the next ball is another one");
+            return;
+        }
+    }
+    panic!("the ball is still in play");
+}
+
 #[test]
 fn a_replay_of_nudges_arrives_at_the_same_digest() {
     let play = || {
