@@ -3,6 +3,8 @@
 
 mod accuracy;
 mod check;
+#[cfg(test)]
+mod description_tests;
 mod error;
 pub mod format;
 mod format_mechanisms;

@@ -342,32 +342,6 @@ fn a_table_cut_off_or_mangled_anywhere_is_refused_without_a_panic() {
     }
 }
 
-#[test]
-fn the_example_in_the_description_is_a_good_table() {
-    let description = include_str!("../../tables/README.md");
-    let example =
-        description.split("## A whole table").nth(1).and_then(|text| text.find("    (").map(|at| &text[at..]));
-    match Table::parse("README.md", example.unwrap_or_default()) {
-        Ok(table) => assert_eq!(table.name, "Shed"),
-        Err(error) => panic!("{error}"),
-    }
-    for (name, text) in [("format", super::FORMAT_VERSION), ("physics", crate::physics::PHYSICS_VERSION)] {
-        let row = description.lines().find(|line| line.starts_with(&format!("| `{name}`"))).unwrap_or_default();
-        assert!(row.ends_with(&format!(": {text} |")), "{row}");
-    }
-}
-
-#[test]
-fn the_scene_in_the_description_is_a_good_scene() {
-    let description = include_str!("../../tables/README.md");
-    let example = description.find("    // Two balls in a box").map(|at| &description[at..]).unwrap_or_default();
-    let example = example.split("\nMetres").next().unwrap_or_default();
-    match Table::parse("README.md", example) {
-        Ok(table) => assert_eq!((table.scene.start.len(), table.scene.kinds.len(), table.has_rules), (2, 2, false)),
-        Err(error) => panic!("{error}"),
-    }
-}
-
 /// What a scene gets wrong is told like what a table does.
 #[test]
 fn mistakes_in_a_scene_are_refused_with_place_and_remedy() {
