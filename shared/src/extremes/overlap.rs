@@ -8,9 +8,9 @@ use crate::physics::scene::Role;
 use crate::physics::shapes::{Segment, Shape, Side};
 use crate::table::{ElementFile, Table};
 
-/// How deep a ball of the first kind with its centre there overlaps what is there, m; negative: how far the nearest thing
-/// is, if it is as near as its radius.
-pub fn deepest_overlap(world: &World, position: DVec2) -> f64 {
+/// How deep a ball of the first kind with its centre there, on that floor, overlaps what is there, m; negative: how far the
+/// nearest thing is, if it is as near as its radius.
+pub fn deepest_overlap(world: &World, position: DVec2, floor: u8) -> f64 {
     let (scene, state) = (world.scene(), world.state());
     let mut deepest = f64::NEG_INFINITY;
     let mut note = |distance: f64| {
@@ -19,8 +19,8 @@ pub fn deepest_overlap(world: &World, position: DVec2) -> f64 {
     };
     for collider in &scene.colliders {
         let one_way = matches!(collider.shape, Shape::Segment(segment) if segment.one_way);
-        let passable = matches!(collider.role, Role::Sensor | Role::Drain) || one_way;
-        if !passable && collider.bounds.contains(position) && state.has(collider) {
+        let passable = collider.role.is_passed() || one_way;
+        if !passable && collider.floor == floor && collider.bounds.contains(position) && state.has(collider) {
             note(match &collider.shape {
                 // A whole disc is solid.
                 Shape::Arc(disc) if disc.side == Side::Outside && disc.span.is_none() => {
@@ -30,7 +30,8 @@ pub fn deepest_overlap(world: &World, position: DVec2) -> f64 {
             });
         }
     }
-    for (spec, flipper) in scene.flippers.iter().zip(&state.flippers) {
+    let on_playfield = if floor == 0 { scene.flippers.as_slice() } else { &[] };
+    for (spec, flipper) in on_playfield.iter().zip(&state.flippers) {
         note(spec.nearest(spec.direction(flipper.swing), position).distance);
     }
     deepest
@@ -39,10 +40,12 @@ pub fn deepest_overlap(world: &World, position: DVec2) -> f64 {
 /// The places of a table where no ball's centre belongs.
 #[derive(Debug, Clone)]
 pub struct Obstacles {
-    /// Closed walls, the last corner as the first.
-    islands: Vec<Vec<DVec2>>,
-    /// Long walls: on which side of them a ball is can be told from one tick to the next.
-    walls: Vec<Segment>,
+    /// Closed walls with their floors, the last corner as the first.
+    islands: Vec<(u8, Vec<DVec2>)>,
+    /// Long walls with theirs: on which side of them a ball is can be told from one tick to the next.
+    walls: Vec<(u8, Segment)>,
+    /// Lines at which a ball comes to another floor from the playfield.
+    edges: Vec<Segment>,
 }
 
 impl Obstacles {
@@ -50,29 +53,38 @@ impl Obstacles {
     pub fn of(table: &Table) -> Self {
         let closed = table.file.elements.iter().filter_map(|element| match element {
             ElementFile::Wall(wall) if wall.points.len() > 3 && wall.points.first() == wall.points.last() => {
-                Some(wall.points.iter().map(|&(x, y)| DVec2::new(x, y)).collect())
+                Some((wall.floor, wall.points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()))
             }
             _ => None,
         });
         let world = World::new(table.scene.clone());
         let solid = table.scene.colliders.iter().filter(|c| c.role == Role::Solid && world.state().has(c));
         let long = solid.filter_map(|c| match c.shape {
-            Shape::Segment(segment) if segment.length > 0.07 && !segment.one_way => Some(segment),
+            Shape::Segment(segment) if segment.length > 0.07 && !segment.one_way => Some((c.floor, segment)),
             _ => None,
         });
-        Self { islands: closed.collect(), walls: long.collect() }
+        let edges = table.scene.colliders.iter().filter_map(|c| match (c.role, &c.shape) {
+            (Role::Hole { .. }, Shape::Segment(line)) if c.floor == 0 => Some(*line),
+            _ => None,
+        });
+        Self { islands: closed.collect(), walls: long.collect(), edges: edges.collect() }
     }
 
-    /// Whether a point lies in an island.
-    pub fn is_inside(&self, point: DVec2) -> bool {
-        self.islands.iter().any(|island| is_inside(island, point))
+    /// Whether a point of the playfield is within a radius of where a ball comes to another floor: behind that line no ball
+    /// belongs.
+    pub fn is_at_edge(&self, point: DVec2, radius: f64) -> bool {
+        self.edges.iter().any(|edge| Shape::Segment(*edge).distance(point) < radius)
     }
 
-    /// The wall that a ball came through from one tick to the next.
-    pub fn crossed(&self, before: DVec2, after: DVec2) -> Option<&Segment> {
-        self.walls
-            .iter()
-            .find(|wall| matches!((side_of(wall, before), side_of(wall, after)), (Some(was), Some(is)) if was != is))
+    /// Whether a point lies in an island of that floor.
+    pub fn is_inside(&self, point: DVec2, floor: u8) -> bool {
+        self.islands.iter().any(|(of, island)| *of == floor && is_inside(island, point))
+    }
+
+    /// The wall that a ball came through on that floor from one tick to the next.
+    pub fn crossed(&self, before: DVec2, after: DVec2, floor: u8) -> Option<&Segment> {
+        let walls = self.walls.iter().filter(|(of, _)| *of == floor).map(|(_, wall)| wall);
+        walls.into_iter().find(|wall| matches!((side_of(wall, before), side_of(wall, after)), (Some(was), Some(is)) if was != is))
     }
 }
 

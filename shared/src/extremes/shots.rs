@@ -15,6 +15,7 @@ use super::cases::{balls, classic};
 use super::overlap::{Obstacles, deepest_overlap};
 use super::{Check, known};
 use crate::math::{Rng, direction};
+use crate::physics::ball::Ball;
 use crate::physics::constants::DEEPEST_OVERLAP;
 use crate::physics::motion::Motion;
 use crate::physics::needs::Needs;
@@ -151,12 +152,21 @@ pub fn shots(numbers: Range<u64>, shooting: &Shooting) -> Shots {
     })
 }
 
+/// A ball before a tick.
+#[derive(Debug, Clone, Copy)]
+struct Before {
+    place: DVec2,
+    floor: u8,
+    /// It has been clear of the other balls since it came to its floor: one that drops may drop onto another.
+    clear: bool,
+}
+
 struct Shot {
     number: u64,
     rng: Rng,
     world: World,
     /// Of each ball, by its id.
-    before: Vec<DVec2>,
+    before: Vec<Before>,
 }
 
 impl Shot {
@@ -164,19 +174,22 @@ impl Shot {
         let mut rng = Rng::new(Rng::new(shooting.seed).bits().wrapping_add(Rng::new(number).bits()));
         let mut world = World::new(table.scene.clone());
         let balls = if shooting.most_balls > 1 { 1 + rng.bits() % shooting.most_balls } else { 1 };
-        let mut before: Vec<DVec2> = Vec::new();
+        let mut before: Vec<Before> = Vec::new();
         for _ in 0..balls {
             let start = loop {
                 let place = DVec2::new(rng.between(0.0, 0.514), rng.between(0.02, 1.067));
                 let under_the_arch = place.y < 0.81 || (place - DVec2::new(0.257, 0.81)).length() < 0.24;
-                let is_alone = before.iter().all(|other| (*other - place).length() > 2.0 * table.scene.radius(0));
-                if under_the_arch && is_alone && deepest_overlap(&world, place) < 0.0 && !obstacles.is_inside(place) {
+                let is_alone = before.iter().all(|other| (other.place - place).length() > 2.0 * table.scene.radius(0));
+                let is_clear = deepest_overlap(&world, place, 0) < 0.0
+                    && !obstacles.is_inside(place, 0)
+                    && !obstacles.is_at_edge(place, table.scene.radius(0));
+                if under_the_arch && is_alone && is_clear {
                     break place;
                 }
             };
             let velocity = direction(rng.between(0.0, core::f64::consts::TAU)) * rng.between(0.0, shooting.fastest);
             world.launch(0, start, velocity);
-            before.push(start);
+            before.push(Before { place: start, floor: 0, clear: true });
             let mut state = world.state().clone();
             if let Some(ball) = state.balls.last_mut() {
                 ball.spin = rng.between(-200.0, 200.0);
@@ -219,18 +232,33 @@ impl Shot {
 
     /// Where the balls are after a tick.
     fn judge(&mut self, obstacles: &Obstacles, account: &Account, told: &mut Shots) {
-        let places: Vec<DVec2> = balls(&self.world).map(|(position, ..)| position).collect();
-        for (place, (position, velocity, spin)) in balls(&self.world).enumerate() {
-            let before = &mut self.before[self.world.state().balls[place].id as usize];
+        let (scene, states) = (self.world.scene(), &self.world.state().balls);
+        let now: Vec<_> = balls(&self.world).zip(states).collect();
+        for (place, &((position, velocity, spin), ball)) in now.iter().enumerate() {
+            let before = self.before[ball.id as usize];
+            // On its way to another floor it may pass above or below any wall.
+            let crossed =
+                before.floor == ball.floor && obstacles.crossed(before.place, position, ball.floor).is_some();
             if !(position.is_finite() && velocity.is_finite() && spin.is_finite()) {
                 told.not_finite = 1;
-            } else if obstacles.is_inside(position) || obstacles.crossed(*before, position).is_some() {
+            } else if obstacles.is_inside(position, ball.floor) || crossed {
                 told.passed_through = 1;
             }
-            *before = position;
-            let between =
-                places[..place].iter().map(|other| 2.0 * self.world.scene().radius(0) - (*other - position).length());
-            for overlap in between.chain([deepest_overlap(&self.world, position)]) {
+            // Balls on different floors do not meet, and one in a saucer meets none.
+            let meets = |other: &Ball| {
+                other.id != ball.id && other.floor == ball.floor && ball.saucer().is_none() && other.saucer().is_none()
+            };
+            let others = now.iter().filter(|(_, other)| meets(other));
+            let overlaps = others.map(|((at, ..), other)| (other.id, 2.0 * scene.radius(0) - (*at - position).length()));
+            let overlaps: Vec<_> = overlaps.collect();
+            let clear = before.clear && before.floor == ball.floor || overlaps.iter().all(|(_, overlap)| *overlap <= 0.0);
+            self.before[ball.id as usize] = Before { place: position, floor: ball.floor, clear };
+            let judged = overlaps.iter().filter(|(id, _)| {
+                let is_earlier = now[..place].iter().any(|(_, other)| other.id == *id);
+                is_earlier && clear && self.before[*id as usize].clear
+            });
+            let between = judged.map(|(_, overlap)| *overlap);
+            for overlap in between.chain([deepest_overlap(&self.world, position, ball.floor)]) {
                 if overlap > told.deepest {
                     told.deepest = overlap;
                     told.worst = (self.number, self.world.state().tick);
