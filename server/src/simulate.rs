@@ -6,7 +6,7 @@ use std::time::Instant as Clock;
 
 use serde_json::{Value, json};
 use shared::game::replay::{Recorder, Replay};
-use shared::game::{Action, Bot, Game, GameEventKind, Input, Phase};
+use shared::game::{Action, Bot, Game, GameEventKind, Input};
 use shared::physics::ball::Instant;
 use shared::physics::{Event, EventKind};
 use shared::table::Table;
@@ -67,7 +67,7 @@ impl<'a> Inputs<'a> {
                 if tick == 0 {
                     act(Action::Sit);
                 }
-                if !matches!(game.phase(), Phase::Play { .. }) {
+                if !game.is_playing() {
                     act(Action::Start);
                 }
                 self.bot.play(game, act);

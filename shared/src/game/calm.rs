@@ -48,6 +48,13 @@ impl Game {
         self.calm.count(self.play.phase, self.tick())
     }
 
+    /// Whether it is anybody's turn.
+    #[inline]
+    pub fn is_playing(&self) -> bool {
+        // No count makes another phase of one.
+        matches!(self.play.phase, Phase::Play { .. })
+    }
+
     /// Everything that changes: to be saved, sent or restored.
     pub fn state(&self) -> GameState {
         GameState { world: self.world.state().clone(), play: self.play_now() }

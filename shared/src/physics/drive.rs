@@ -44,6 +44,9 @@ impl World {
     /// piece that balls on it follow.
     pub(super) fn flipper_motion(&self, index: usize, flipper: FlipperState, offset: f64) -> FlipperMotion {
         let spec = &self.scene.flippers[index];
+        if self.on_flipper(index).next().is_none() {
+            return spec.free_motion(&flipper, offset, self.scene.tick_seconds - offset);
+        }
         let flipper = FlipperState { coil_time: flipper.coil_time + offset, ..flipper };
         let FlipperState { swing, speed, .. } = flipper;
         let span = self.flipper_piece(index, swing, speed, offset);
@@ -125,8 +128,13 @@ impl World {
 
     /// 4. Carries flippers and plungers over to the next tick.
     pub(super) fn settle_movers(&mut self) {
-        let dt = self.scene.tick_seconds;
         self.run_coils();
+        self.settle_moved();
+    }
+
+    /// What has moved is where its motion ends.
+    pub(super) fn settle_moved(&mut self) {
+        let dt = self.scene.tick_seconds;
         for (flipper, motion) in self.state.flippers.iter_mut().zip(&self.flipper_motions) {
             if let (Some(motion), FlipperRest::Moving) = (motion, flipper.rest) {
                 flipper.swing = motion.swing_at(dt);

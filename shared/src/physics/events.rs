@@ -147,7 +147,7 @@ impl World {
         first
     }
 
-    fn plunger_comes_home(&self, index: usize, clock: f64, limit: f64) -> Option<f64> {
+    pub(super) fn plunger_comes_home(&self, index: usize, clock: f64, limit: f64) -> Option<f64> {
         let motion = self.plunger_motions[index]?;
         if self.state.plungers[index].hand.is_some() {
             return None;
@@ -278,7 +278,7 @@ impl World {
 
     /// A target is gone, and with it what balls lay on.
     fn target_fell(&mut self, target: u16, offset: f64) {
-        self.forget_nexts(Instant { tick: self.state.tick, offset });
+        self.forget_nexts(Instant { tick: self.state.tick, offset }, None);
         let gone = Presence::TargetUp(target);
         for ball in 0..self.state.balls.len() {
             let is_gone = |i: u16| self.scene.colliders[usize::from(i)].presence == gone;

@@ -158,6 +158,17 @@ impl FlipperSpec {
         self.torque * strength * (1.0 - held * (1.0 - self.hold))
     }
 
+    /// The motion from `offset` on, for `span` seconds, of a flipper that carries nothing: with the acceleration that it has in the
+    /// middle of it.
+    pub fn free_motion(&self, state: &FlipperState, offset: f64, span: f64) -> FlipperMotion {
+        let FlipperState { swing, speed, .. } = *state;
+        let state = FlipperState { coil_time: state.coil_time + offset, ..*state };
+        let acceleration = self.drive(&state, swing, span) / self.inertia;
+        let guess = FlipperMotion { from: offset, swing, speed, acceleration };
+        let drive = self.drive(&state, guess.swing_at(offset + span), span);
+        FlipperMotion { acceleration: drive / self.inertia, ..guess }
+    }
+
     /// Sine and cosine of the angle by which the faces' normals lean towards the tip: asin((base - tip) / length).
     fn lean(&self) -> (f64, f64) {
         let lean = (self.base_radius - self.tip_radius) / self.length;

@@ -13,9 +13,18 @@ use super::flipper::Nearest;
 use super::friction::{Friction, Rub};
 use super::movers::{Mover, MovingFlipper, lever};
 use super::scene::Presence;
-use super::shapes::Shape;
+use super::shapes::{Bounds, Shape};
 use super::world::World;
 use crate::math::tangent;
+
+/// Where a body that comes to rest, or starts, can be touched.
+#[derive(Debug, Clone, Copy)]
+struct Disc {
+    /// m.
+    center: DVec2,
+    /// From there to the centre of a ball that touches it, m, and more.
+    radius: f64,
+}
 
 impl World {
     /// 2. Every ball that follows a surface begins a new piece of flight.
@@ -264,7 +273,7 @@ impl World {
         let support = Support::Flipper(index as u16);
         let own = [Presence::FlipperAtRest(index as u16), Presence::FlipperRaised(index as u16)];
         let reach = spec.reach() + 2.0 * scene.largest_radius();
-        self.surface_changed(support, own, offset, moves, |position| (position - spec.pivot).length() <= reach);
+        self.surface_changed(support, own, offset, moves, Disc { center: spec.pivot, radius: reach });
     }
 
     /// A plunger started (`moves`) or came home.
@@ -274,20 +283,22 @@ impl World {
         let support = Support::Plunger(index as u16);
         let own = [Presence::PlungerHome(index as u16); 2];
         let reach = spec.width + spec.stroke + 2.0 * scene.largest_radius();
-        self.surface_changed(support, own, offset, moves, |position| (position - spec.from).length() <= reach);
+        self.surface_changed(support, own, offset, moves, Disc { center: spec.from, radius: reach });
     }
 
     /// Balls on the surface now lie on its moving form (`moves`) or have to find out anew; balls near it begin a new
-    /// flight, so that what they touch is known from its start; all search for their next event again.
+    /// flight, so that what they touch is known from its start; all that come near search for their next event again.
     fn surface_changed(
         &mut self,
         support: Support,
         own: [Presence; 2],
         offset: f64,
         moves: bool,
-        is_near: impl Fn(DVec2) -> bool,
+        place: Disc,
     ) {
-        self.forget_nexts(Instant { tick: self.state.tick, offset });
+        let Disc { center, radius } = place;
+        let is_near = |position: DVec2| (position - center).length() <= radius;
+        self.forget_nexts(Instant { tick: self.state.tick, offset }, Some(Bounds { low: center, high: center }.grown(radius)));
         for ball in 0..self.state.balls.len() {
             if self.state.balls[ball].saucer().is_some() {
                 continue;

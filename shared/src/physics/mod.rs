@@ -1,5 +1,6 @@
 //! The physics: balls among static shapes, flippers and plungers. It emits events and takes commands; it knows no score.
 
+mod alone;
 pub mod ball;
 pub mod broad_phase;
 pub mod cabinet;

@@ -10,6 +10,9 @@ use super::plunger::{PlungerMotion, PlungerSpec};
 use crate::math::roots::quadratic;
 use crate::math::tangent;
 
+/// More than 1, by more than any rounding.
+const CLEARLY: f64 = 1.0 + 1e-6;
+
 /// A ball's flight and where in it the current tick begins.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct BallInTick<'a> {
@@ -63,6 +66,12 @@ impl MovingFlipper<'_> {
         }
         if swing >= self.spec.stroke && (speed > 0.0 || (speed == 0.0 && motion.acceleration > 0.0)) {
             return Some((from, true));
+        }
+        // So far from both that it comes to none of them, rounding or not.
+        let left = until - from;
+        let way = CLEARLY * (speed.abs() + motion.acceleration.abs() * left) * left;
+        if swing > way && self.spec.stroke - swing > way {
+            return None;
         }
         let mut first = None;
         let mut limit = until;
@@ -207,6 +216,10 @@ pub(super) fn first_impact(
     }
     while left < until {
         let safe = gap_left / fastest;
+        // It does not come there before.
+        if safe > CLEARLY * (until - left) {
+            return None;
+        }
         let step = if safe > least_step { safe } else { least_step };
         let right = if left + step < until { left + step } else { until };
         let gap_right = gap(right);

@@ -110,6 +110,14 @@ impl PlungerSpec {
         if (0.0..=self.width).contains(&along) { offset.dot(self.normal) + pull } else { f64::INFINITY }
     }
 
+    /// No more metres than a ball of `radius` around a point has to go to meet the face pulled back by `pull`; 0 or less beyond it.
+    pub fn way_to_face(&self, pull: f64, point: DVec2, radius: f64) -> f64 {
+        let offset = point - self.from;
+        let (along, across) = (offset.dot(self.along), offset.dot(self.normal));
+        let ways = [-along, along - self.width];
+        ways.into_iter().fold(across + pull - radius, |most, way| if way > most { way } else { most })
+    }
+
     /// No more metres than from a point to the places that the face can take; 0 or less between them.
     pub fn way_to_stroke(&self, point: DVec2) -> f64 {
         let offset = point - self.from;

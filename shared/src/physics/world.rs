@@ -9,7 +9,7 @@ use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
 use super::constants::{
-    CLEAR_OF_TARGET, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK, MOST_SEARCHES_PER_TICK, MOST_SPEED,
+    CLEAR_OF_TARGET, LONGEST_FLIGHT, MOST_IMPACTS_PER_SECOND, MOST_IMPACTS_PER_TICK, MOST_SEARCHES_PER_TICK, MOST_SPEED,
 };
 use super::flipper::{FlipperMotion, FlipperRest, FlipperState};
 use super::meetings::Meetings;
@@ -17,6 +17,7 @@ use super::motion::{Motion, Next, Query, Scratch, Span};
 use super::movers::{MovingFlipper, MovingPlunger};
 use super::plunger::PlungerMotion;
 use super::scene::{Collider, Presence, Scene};
+use super::shapes::Bounds;
 use super::state::{MOST_BALLS, StateError, TargetState, WorldState};
 
 /// Room for what happens in one tick: that many events, and that many for each ball of the start. A tick in which more happens
@@ -139,6 +140,8 @@ pub struct World {
     pub(super) quiet_until: u64,
     /// Meanwhile a flipper is held: its coil's time goes on.
     holds: bool,
+    /// Meanwhile a flipper or a plunger is on its way, with no ball near it.
+    moves: bool,
 }
 
 impl World {
@@ -159,6 +162,7 @@ impl World {
             busy_from: 0,
             quiet_until: 0,
             holds: false,
+            moves: false,
             state: WorldState::new(&scene),
             scene,
         };
@@ -173,20 +177,24 @@ impl World {
     #[inline]
     pub fn step(&mut self) -> &[Event] {
         // Flights were solved when they began: until the next event, time just passes.
-        if self.state.tick < self.quiet_until {
-            self.pass_quietly();
+        if self.state.tick < self.quiet_until && self.passes_quietly() {
             return &[];
         }
         self.step_busy();
         &self.events
     }
 
+    /// A tick in which nothing happens to any ball; `false`, and nothing has changed, if what moves comes to a stop in it.
     #[inline]
-    fn pass_quietly(&mut self) {
+    fn passes_quietly(&mut self) -> bool {
+        if self.moves && !self.move_alone() {
+            return false;
+        }
         self.state.tick += 1;
         if self.holds {
             self.run_coils();
         }
+        true
     }
 
     /// A tick in which something may happen, or the one after.
@@ -194,8 +202,7 @@ impl World {
     fn step_busy(&mut self) {
         // 0. What happened in the last tick is told.
         self.events.clear();
-        if self.state.tick < self.busy_from {
-            self.pass_quietly();
+        if self.state.tick < self.busy_from && self.passes_quietly() {
             self.quiet_until = self.busy_from;
             return;
         }
@@ -375,8 +382,9 @@ impl World {
         // A flipper that is held at the end of its stroke lies as still as one at rest.
         let stays = |f: &FlipperState| f.rest == if f.pressed { FlipperRest::Raised } else { FlipperRest::AtRest };
         self.holds = state.flippers.iter().any(|f| f.pressed);
-        let at_work = !state.flippers.iter().all(stays)
-            || state.plungers.iter().any(|p| !p.home || !p.stays_home())
+        self.moves = self.any_mover();
+        let at_work = !state.flippers.iter().all(|f| f.rest == FlipperRest::Moving || stays(f))
+            || state.plungers.iter().any(|p| p.home != p.stays_home())
             || state.targets.contains(&TargetState::Rising)
             || !state.cabinet.is_still()
             || (self.scene.needs.magnets && state.balls.iter().any(|ball| self.is_in_field(ball)));
@@ -400,6 +408,9 @@ impl World {
                 tick += 1;
             }
             busy = busy.min(tick);
+            if self.moves {
+                busy = busy.min(self.may_meet_mover_in(ball));
+            }
         }
         if self.scene.needs.hinges {
             // A tick less, for the rounding of the division.
@@ -433,7 +444,7 @@ impl World {
             });
             if !blocked {
                 self.state.targets[index] = TargetState::Up;
-                self.forget_nexts(now);
+                self.forget_nexts(now, None);
             }
         }
     }
@@ -456,10 +467,21 @@ impl World {
         }
     }
 
-    /// The static shapes changed at `now`: what balls meet next has to be found anew, but nothing that is past.
-    pub(super) fn forget_nexts(&mut self, now: Instant) {
+    /// The static shapes that the centre of a ball within `place` can touch, or any, changed at `now`: what balls meet next
+    /// has to be found anew where they come there before, but nothing that is past.
+    pub(super) fn forget_nexts(&mut self, now: Instant, place: Option<Bounds>) {
+        let scene = &*self.scene;
+        let place = place.filter(|_| scene.motion == Motion::Exact);
         for (ball, next) in self.state.balls.iter_mut().zip(&mut self.next) {
-            *next = None;
+            // What is near in time may be lost in the rounding of what is past.
+            let stays = |next: &Next, place: &Bounds| {
+                let (from, to) = (now.since(ball.flight.start, scene.tick_seconds), next.time());
+                ball.support == Support::None
+                    && to > from + scene.tick_seconds
+                    && to < LONGEST_FLIGHT
+                    && !Bounds::of_flight(&ball.flight, from, to).meets(place)
+            };
+            *next = next.filter(|next| place.is_some_and(|place| stays(next, &place)));
             // What happens at `now` itself is not past: neither what a flight that begins right now touches, nor an
             // impact at the very instant of the change.
             let before = now.since(ball.flight.start, self.scene.tick_seconds).next_down();

@@ -9,7 +9,7 @@ use super::near::near_circle;
 use super::{Rounding, Search, TimeOfImpact, without_rounding};
 use crate::math::roots::{Roots, quadratic, sign_changes};
 use crate::physics::ball::Flight;
-use crate::physics::constants::{DEEPEST_OVERLAP, MOST_NEWTON_STEPS, POLISH_STEP};
+use crate::physics::constants::{DEEPEST_OVERLAP, LONGEST_FLIGHT, MOST_NEWTON_STEPS, POLISH_STEP};
 use crate::physics::shapes::{Arc, Bounds};
 
 /// Share of a circle's radius by which a box is clear of it beyond any rounding.
@@ -32,6 +32,11 @@ pub(super) fn first_impact(
     let touches = gap <= touch && gap >= -DEEPEST_OVERLAP * radius && arc.spans(offset);
     if touches && approaches_from_contact(flight, arc, offset, rounding) {
         return if search.accepts(0.0) { TimeOfImpact::Overlapping } else { TimeOfImpact::Separated };
+    }
+    // Most searches go no farther than a short way, and that is clear of the arc all along.
+    let after = if search.after > 0.0 { search.after } else { 0.0 };
+    if !touches && search.before < LONGEST_FLIGHT && passes_by(flight, arc, reach, after, search.before) {
+        return TimeOfImpact::Separated;
     }
     let crossing = first_crossing(flight, arc, reach, rounding, touches, search);
     if touches {
