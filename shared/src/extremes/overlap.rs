@@ -84,7 +84,9 @@ impl Obstacles {
     /// The wall that a ball came through on that floor from one tick to the next.
     pub fn crossed(&self, before: DVec2, after: DVec2, floor: u8) -> Option<&Segment> {
         let walls = self.walls.iter().filter(|(of, _)| *of == floor).map(|(_, wall)| wall);
-        walls.into_iter().find(|wall| matches!((side_of(wall, before), side_of(wall, after)), (Some(was), Some(is)) if was != is))
+        walls
+            .into_iter()
+            .find(|wall| matches!((side_of(wall, before), side_of(wall, after)), (Some(was), Some(is)) if was != is))
     }
 }
 

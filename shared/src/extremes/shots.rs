@@ -237,8 +237,7 @@ impl Shot {
         for (place, &((position, velocity, spin), ball)) in now.iter().enumerate() {
             let before = self.before[ball.id as usize];
             // On its way to another floor it may pass above or below any wall.
-            let crossed =
-                before.floor == ball.floor && obstacles.crossed(before.place, position, ball.floor).is_some();
+            let crossed = before.floor == ball.floor && obstacles.crossed(before.place, position, ball.floor).is_some();
             if !(position.is_finite() && velocity.is_finite() && spin.is_finite()) {
                 told.not_finite = 1;
             } else if obstacles.is_inside(position, ball.floor) || crossed {
@@ -249,9 +248,11 @@ impl Shot {
                 other.id != ball.id && other.floor == ball.floor && ball.saucer().is_none() && other.saucer().is_none()
             };
             let others = now.iter().filter(|(_, other)| meets(other));
-            let overlaps = others.map(|((at, ..), other)| (other.id, 2.0 * scene.radius(0) - (*at - position).length()));
+            let overlaps =
+                others.map(|((at, ..), other)| (other.id, 2.0 * scene.radius(0) - (*at - position).length()));
             let overlaps: Vec<_> = overlaps.collect();
-            let clear = before.clear && before.floor == ball.floor || overlaps.iter().all(|(_, overlap)| *overlap <= 0.0);
+            let clear =
+                before.clear && before.floor == ball.floor || overlaps.iter().all(|(_, overlap)| *overlap <= 0.0);
             self.before[ball.id as usize] = Before { place: position, floor: ball.floor, clear };
             let judged = overlaps.iter().filter(|(id, _)| {
                 let is_earlier = now[..place].iter().any(|(_, other)| other.id == *id);

@@ -39,7 +39,8 @@ impl World {
         for (spec, plunger) in scene.plungers.iter().zip(&state.plungers) {
             if !plunger.home {
                 // A hand moves it slowly. One that is let go may be anywhere up to its home at once.
-                let (pull, approach) = if plunger.hand.is_some() { (plunger.pull, spec.hand_speed) } else { (0.0, 0.0) };
+                let (pull, approach) =
+                    if plunger.hand.is_some() { (plunger.pull, spec.hand_speed) } else { (0.0, 0.0) };
                 let way = spec.way_to_face(pull, position, radius);
                 take(if way > 0.0 { time(way, speed + approach) } else { 0.0 });
             }
@@ -55,16 +56,15 @@ impl World {
         let dt = self.scene.tick_seconds;
         for index in 0..self.state.flippers.len() {
             let flipper = self.state.flippers[index];
-            self.flipper_motions[index] =
-                (flipper.rest == FlipperRest::Moving).then(|| self.scene.flippers[index].free_motion(&flipper, 0.0, dt));
+            self.flipper_motions[index] = (flipper.rest == FlipperRest::Moving)
+                .then(|| self.scene.flippers[index].free_motion(&flipper, 0.0, dt));
             if self.moving_flipper(index).is_some_and(|flipper| flipper.meets_stop(0.0, dt).is_some()) {
                 return false;
             }
         }
         for index in 0..self.state.plungers.len() {
             let plunger = self.state.plungers[index];
-            self.plunger_motions[index] =
-                (!plunger.home).then(|| self.scene.plungers[index].motion(&plunger, 0.0, dt));
+            self.plunger_motions[index] = (!plunger.home).then(|| self.scene.plungers[index].motion(&plunger, 0.0, dt));
             if self.plunger_comes_home(index, 0.0, dt).is_some() || (!plunger.home && plunger.stays_home()) {
                 return false;
             }

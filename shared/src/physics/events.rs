@@ -177,10 +177,10 @@ impl World {
             Next::LeavesSupport(_) => {
                 let slide = self.state.balls[ball].slide;
                 let grips = slide.and_then(|slide| slide.until).is_some_and(|until| until <= t);
-                self.refresh_spin(ball, offset, position, velocity);
                 if grips {
                     self.grip(ball, offset, position, velocity);
                 } else {
+                    self.refresh_spin(ball, offset, position, velocity);
                     self.start_flight(ball, offset, position, velocity, None, None);
                 }
             }

@@ -42,7 +42,7 @@ impl World {
                 let (position, velocity) = self.ball_at(ball, offset);
                 self.start_flight(ball, offset, position, velocity, None, None);
             }
-            Support::Arc(index) => self.follow_arc(ball, index, offset),
+            Support::Arc(index) => self.follow_arc(ball, index, offset, false),
             support @ (Support::Flipper(_) | Support::Plunger(_)) => {
                 let rolls = self.state.balls[ball].slide.is_none();
                 self.follow_mover(ball, support, offset, rolls);
@@ -50,7 +50,8 @@ impl World {
         }
     }
 
-    fn follow_arc(&mut self, ball: usize, index: u16, offset: f64) {
+    /// A ball on a curved surface begins a new piece of flight along it: rolling if it `grips` now.
+    pub(super) fn follow_arc(&mut self, ball: usize, index: u16, offset: f64, grips: bool) {
         let (position, velocity) = self.ball_at(ball, offset);
         let collider = self.scene.colliders[usize::from(index)];
         let Shape::Arc(arc) = &collider.shape else { return };
@@ -78,6 +79,11 @@ impl World {
         let estimate = velocity.dot(along);
         let speed = if square > 0.0 { square.sqrt().copysign(estimate) } else { estimate };
         self.refresh_spin(ball, offset, place, along * speed);
+        if grips {
+            let radius = self.radius(ball);
+            let subject = &mut self.state.balls[ball];
+            (subject.slide, subject.spin) = (None, -speed / radius);
+        }
         self.start_flight(ball, offset, place, along * speed, Some(index), None);
     }
 
@@ -288,17 +294,13 @@ impl World {
 
     /// Balls on the surface now lie on its moving form (`moves`) or have to find out anew; balls near it begin a new
     /// flight, so that what they touch is known from its start; all that come near search for their next event again.
-    fn surface_changed(
-        &mut self,
-        support: Support,
-        own: [Presence; 2],
-        offset: f64,
-        moves: bool,
-        place: Disc,
-    ) {
+    fn surface_changed(&mut self, support: Support, own: [Presence; 2], offset: f64, moves: bool, place: Disc) {
         let Disc { center, radius } = place;
         let is_near = |position: DVec2| (position - center).length() <= radius;
-        self.forget_nexts(Instant { tick: self.state.tick, offset }, Some(Bounds { low: center, high: center }.grown(radius)));
+        self.forget_nexts(
+            Instant { tick: self.state.tick, offset },
+            Some(Bounds { low: center, high: center }.grown(radius)),
+        );
         for ball in 0..self.state.balls.len() {
             if self.state.balls[ball].saucer().is_some() {
                 continue;

@@ -117,13 +117,17 @@ impl World {
             self.stall(ball, offset, position);
             return;
         }
-        self.state.balls[ball].slide = None;
-        self.refresh_spin(ball, offset, position, velocity);
         match self.state.balls[ball].support {
-            Support::Line(index) | Support::Arc(index) => {
-                self.start_flight(ball, offset, position, velocity, Some(index), None);
+            // Back onto the curve, at the speed that the slide has left it.
+            Support::Arc(index) => self.follow_arc(ball, index, offset, true),
+            support => {
+                self.state.balls[ball].slide = None;
+                self.refresh_spin(ball, offset, position, velocity);
+                match support {
+                    Support::Line(index) => self.start_flight(ball, offset, position, velocity, Some(index), None),
+                    _ => self.follow_surface(ball, offset),
+                }
             }
-            _ => self.follow_surface(ball, offset),
         }
     }
 }

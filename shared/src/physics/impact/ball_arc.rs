@@ -76,7 +76,9 @@ fn first_crossing(
     search: &Search,
 ) -> TimeOfImpact {
     let offset = flight.position - arc.center;
-    for &(from, to) in near_circle(offset, flight.velocity, flight.acceleration, reach, rounding.gap).as_slice() {
+    // A ball that sank into a hollow a little begins beyond its reach: it is near from the start all the same.
+    let near = if touches && offset.length() > reach { offset.length() } else { reach };
+    for &(from, to) in near_circle(offset, flight.velocity, flight.acceleration, near, rounding.gap).as_slice() {
         if from >= search.before {
             break;
         }

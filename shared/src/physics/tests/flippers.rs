@@ -212,7 +212,7 @@ fn shot(tick_hz: u32, share: f64) -> DVec2 {
     for _ in 0..100 * ms {
         run(&mut world, 1);
         let (position, velocity) = ball(&world, 0);
-        assert!(deepest_overlap(&world, position) < 1e-5);
+        assert!(deepest_overlap(&world, position, 0) < 1e-5);
         let gap = spec.nearest(spec.direction(world.state.flippers[0].swing), position).distance - 0.0135;
         if gap > 0.002 {
             return velocity;

@@ -46,9 +46,8 @@ fn each_scene_needs_what_is_in_it() {
 }
 
 #[test]
-fn classic_needs_all_but_other_balls_and_other_floors() {
-    let expected =
-        ["gravity", "friction", "spin", "contact", "flippers", "plungers", "targets", "sensors", "broad phase"];
+fn classic_needs_all_but_other_kinds_of_ball_and_magnets() {
+    let expected: Vec<_> = Needs::NAMES.into_iter().filter(|name| !matches!(*name, "kinds" | "magnets")).collect();
     assert_eq!(names(&classic().scene), expected);
 }
 

@@ -32,7 +32,7 @@ struct Told {
 fn squeeze(mut world: World, rng: &mut Rng, told: &mut Told) {
     let place = loop {
         let place = DVec2::new(rng.between(0.42, 0.58), rng.between(0.2, 0.34));
-        if deepest_overlap(&world, place) < 0.0 {
+        if deepest_overlap(&world, place, 0) < 0.0 {
             break place;
         }
     };
@@ -50,7 +50,7 @@ fn squeeze(mut world: World, rng: &mut Rng, told: &mut Told) {
         let is_inside = (0.2..0.8).contains(&position.x) && (0.1..0.6).contains(&position.y);
         assert!(is_inside, "it came through the frame at {position}, from {place} on");
         told.fastest = told.fastest.max(velocity.length());
-        let overlap = deepest_overlap(&world, position);
+        let overlap = deepest_overlap(&world, position, 0);
         told.deepest = told.deepest.max(overlap);
     }
 }
