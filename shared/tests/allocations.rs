@@ -123,7 +123,7 @@ fn games_on_classic_allocate_nothing() {
             assert_eq!(game.restore(state), Ok(()));
         }
     }
-    assert!(lost >= 3 && felled >= 1 && restored >= 1, "{lost} balls lost, {felled} targets felled, {restored}");
+    assert!(lost >= 2 && felled >= 1 && restored >= 1, "{lost} balls lost, {felled} targets felled, {restored}");
 }
 
 /// A spinner that spins, a gate, a saucer that catches and throws out, and rules that serve another ball each time.
