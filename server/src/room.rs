@@ -346,6 +346,7 @@ impl Room {
                 self.account.rescued += 1;
                 tracing::warn!("tick {}: a ball was stuck and is served again", self.game.tick());
             }
+            GameEventKind::Tilted { seat } => tracing::info!("{} tilts the game", self.lobby.name_of(seat)),
             GameEventKind::Lost { seat } => {
                 tracing::info!("{} lost a ball at {} points", self.lobby.name_of(seat), points(seat));
             }

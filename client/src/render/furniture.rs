@@ -61,7 +61,8 @@ pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
 /// Paints what stands on the floors above the board, but for their rails.
 pub(super) fn paint_upper(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
     let above = table.elements.iter().filter(|element| floor_of(element) > 0);
-    let is_rail = |element: &&ElementFile| matches!(element, ElementFile::Wall(_) | ElementFile::Arc(_));
+    let is_rail =
+        |element: &&ElementFile| matches!(element, ElementFile::Wall(_) | ElementFile::Arc(_) | ElementFile::Ring(_));
     let standing = above.clone().filter(|element| !is_rail(element));
     let pieces: Vec<Piece> = standing.flat_map(|element| pieces(layout, table, element)).collect();
     paint_pieces(canvas, layout, &pieces);
@@ -100,6 +101,11 @@ fn pieces(layout: &Layout, table: &TableFile, element: &ElementFile) -> Vec<Piec
         }
         ElementFile::Post(post) => {
             vec![bar(Shape::circle(layout.written(post.center), layout.length(post.radius)), Look::Post)]
+        }
+        ElementFile::Ring(ring) => {
+            let (center, radius) = (layout.written(ring.center), layout.length(ring.radius));
+            let Look::Rail { radius: half_width } = rail else { return Vec::new() };
+            vec![bar(Shape::Arc { center, radius, from: 0.0, to: 2.0 * PI, half_width }, rail)]
         }
         ElementFile::Bumper(bumper) => vec![bar(bumper_base(layout, bumper), Look::BumperBase)],
         ElementFile::Slingshot(sling) => {

@@ -1,4 +1,4 @@
-//! Standing targets, spinners, gates, saucers and magnets: what of them stands still is painted once, what moves is drawn from the
+//! Standing targets, spinners, gates, saucers, holes and magnets: what of them stands still is painted once, what moves is drawn from the
 //! view with every frame.
 
 use macroquad::color::Color;
@@ -21,11 +21,12 @@ const WINDINGS: f32 = 4.0;
 /// Share of its line that a plate is wide; the rest is axle.
 const PLATE: f32 = 0.74;
 
-/// Paints what stands still, on the board or above it: coils of magnets, cups of saucers, axles of spinners and gates.
+/// Paints what stands still, on the board or above it: coils of magnets, holes, cups of saucers, axles of spinners and gates.
 pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile, above: bool) {
     for element in table.elements.iter().filter(|element| (floor_of(element) > 0) == above) {
         match element {
             ElementFile::Magnet(magnet) => coil(canvas, layout, magnet),
+            ElementFile::Hole(hole) if !above => slot(canvas, layout, hole.from, hole.to),
             ElementFile::Saucer(saucer) => cup(canvas, layout, table, saucer),
             ElementFile::Spinner(spinner) => axle(canvas, layout, spinner.from, spinner.to),
             ElementFile::Gate(gate) => axle(canvas, layout, gate.from, gate.to),
@@ -81,6 +82,14 @@ fn coil(canvas: &mut Canvas, layout: &Layout, magnet: &MagnetFile) {
 /// A coil is somewhat larger than its core, but no larger than its field.
 fn coil_radius(layout: &Layout, magnet: &MagnetFile) -> f32 {
     layout.length((magnet.core * 1.9).min(magnet.radius.max(magnet.core)))
+}
+
+/// A gap in the board, with its edge of steel: there a ball goes to another floor.
+fn slot(canvas: &mut Canvas, layout: &Layout, from: Point, to: Point) {
+    let radius = layout.length(0.0040).max(1.5);
+    let gap = Shape::rod(layout.written(from), layout.written(to), radius);
+    canvas.flat(&gap, ink(Vec3::ZERO, 0.85));
+    canvas.outline(&gap, layout.length(0.0012).max(1.0), ink(STEEL, 0.7));
 }
 
 /// A wire between two brackets.

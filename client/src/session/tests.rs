@@ -108,6 +108,37 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
 }
 
 #[test]
+fn a_nudge_is_seen_at_once_and_predicted_rightly() {
+    let source = &Table::shipped("classic").unwrap().unwrap().source;
+    let source = if source.contains("cabinet:") {
+        source.clone()
+    } else {
+        source.replacen("gravity:", "cabinet: (), gravity:", 1)
+    };
+    let embedded = Embedded::start(Arc::new(Table::parse("classic.ron", &source).unwrap())).unwrap();
+    let mut client = Client::join(&embedded, Role::Play);
+    assert!(client.run(|session| session.seat() == Some(0) && has_ball(session)), "no ball was served");
+    client.run_for(0.3);
+    let cabinet = |session: &Session| session.moment().map_or(0.0, |moment| moment.cabinet.x);
+    assert_eq!(cabinet(&client.session), 0.0);
+    client.controls.key_down(KeyCode::Q);
+    std::thread::sleep(Duration::from_millis(16));
+    client.run(|_| true);
+    assert!(cabinet(&client.session) > 0.0, "the table waited for the server");
+    // As fast as two hands can, so that the server has something to hold up.
+    for _ in 0..12 {
+        for key in [KeyCode::Q, KeyCode::E] {
+            client.controls.key_up(key);
+            client.controls.key_down(key);
+            client.run_for(0.03);
+        }
+    }
+    client.run_for(0.3);
+    let counts = client.session.counts();
+    assert!(counts.right > 30 && counts.wrong <= 3, "{counts:?}");
+}
+
+#[test]
 fn a_spectator_sees_the_bot() {
     let embedded = embedded();
     let mut client = Client::join(&embedded, Role::Watch);
