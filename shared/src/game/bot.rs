@@ -23,6 +23,8 @@ const FORESIGHT: f64 = 0.12;
 const THINK_EVERY: f64 = 0.01;
 /// Seconds from one point of its picture of the ball's way to the next.
 const PICTURE_STEP: f64 = 0.002;
+/// Speed, m/s, below which the ball is taken to come no nearer in its picture: it would take longer than it looks ahead.
+const SLOWEST: f64 = 1e-3;
 /// Seconds for which it holds a flipper, at the least and at the most.
 const HOLD: (f64, f64) = (0.1, 0.25);
 /// Seconds from pulling the plunger to letting go.
@@ -58,6 +60,8 @@ pub struct Bot {
     plunger_quiet_until: u64,
     /// Whether it had a ball to play when it was last asked.
     had_ball: bool,
+    /// Of each flipper: its angle at rest, and which way it points there.
+    axes: Vec<(f64, DVec2)>,
     /// In these ticks it has nothing to do, nor to look at, unless it loses the ball or gets one.
     idle: Range<u64>,
 }
@@ -73,6 +77,7 @@ impl Bot {
             plunge_at: None,
             plunger_quiet_until: 0,
             had_ball: false,
+            axes: Vec::new(),
             idle: 0..0,
         }
     }
@@ -87,6 +92,7 @@ impl Bot {
     }
 
     /// A tick in which there may be something to do.
+    #[inline(never)]
     fn play_now(&mut self, game: &Game, has_ball: bool, mut act: impl FnMut(Action)) {
         let tick = game.tick();
         let dt = game.table().scene.tick_seconds;
@@ -166,6 +172,9 @@ impl Bot {
             act(Action::Pull((pull * f64::from(u16::MAX)) as u16));
             self.plunge_at = Some(tick + (self.rng.between(PULL_TIME.0, PULL_TIME.1) / dt) as u64);
         }
+        if !scene.flippers.iter().map(|spec| spec.rest).eq(self.axes.iter().map(|(rest, _)| *rest)) {
+            self.axes = scene.flippers.iter().map(|spec| (spec.rest, spec.direction(0.0))).collect();
+        }
         for place in 0..scene.flippers.len() {
             let spec = &scene.flippers[place];
             let hand = usize::from(spec.right);
@@ -173,7 +182,7 @@ impl Bot {
                 continue;
             }
             let target = spec.length * self.rng.between(0.55, 0.95);
-            if let Some(arrival) = arrival(spec, scene.gravity, scene.radius(0), seen, target) {
+            if let Some(arrival) = arrival(spec, self.axes[place].1, scene.gravity, scene.radius(0), seen, target) {
                 let press = arrival - SWING_TIME + self.rng.gaussian() * TIMING_ERROR;
                 let press = if press > 0.0 { press } else { 0.0 };
                 let hold = self.rng.between(HOLD.0, HOLD.1);
@@ -187,13 +196,12 @@ impl Bot {
 
 /// In how many seconds from now the ball, seen 200 ms ago, will be worth a flip: when it falls onto the flipper, or
 /// rolls along it (or along the lane that leads to it) to `target` metres from the pivot. `None` if it won't soon.
-fn arrival(spec: &FlipperSpec, gravity: DVec2, radius: f64, seen: Sight, target: f64) -> Option<f64> {
+fn arrival(spec: &FlipperSpec, axis: DVec2, gravity: DVec2, radius: f64, seen: Sight, target: f64) -> Option<f64> {
     // Too far away to come near it in time, whatever it does.
     let comes = (seen.velocity.length() + 0.5 * gravity.length() * (LATENCY + FORESIGHT)) * (LATENCY + FORESIGHT);
     if (seen.position - spec.pivot).length() > 1.01 * (spec.length + spec.base_radius + 4.0 * radius + comes) {
         return None;
     }
-    let axis = spec.direction(0.0);
     let up = if axis.perp().y > 0.0 { axis.perp() } else { -axis.perp() };
     let place = |p: DVec2| ((p - spec.pivot).dot(axis), (p - spec.pivot).dot(up) - radius - spec.base_radius);
     let (along, above) = place(seen.position);
@@ -202,10 +210,18 @@ fn arrival(spec: &FlipperSpec, gravity: DVec2, radius: f64, seen: Sight, target:
     // The mind's picture of the ball, carried forward in steps of 2 ms.
     let pull = if rolls { axis * gravity.dot(axis) } else { gravity };
     let velocity = if rolls { axis * seen.velocity.dot(axis) } else { seen.velocity };
-    // As far as it goes in a step, at the most.
-    let stride = (velocity.length() + pull.length() * (LATENCY + FORESIGHT)) * PICTURE_STEP;
     let (highest, lowest, end) = (0.5 * radius, -3.0 * radius, spec.length + 2.0 * radius);
     let steps = ((LATENCY + FORESIGHT) / PICTURE_STEP) as u32;
+    // As far as it comes nearer in a step, at the most, to each of the places where it would be worth it: its speed along a line
+    // is greatest at one end of the way.
+    let speeds = |way: DVec2| {
+        let (first, last) = (velocity.dot(way), velocity.dot(way) + pull.dot(way) * (LATENCY + FORESIGHT));
+        if first < last { (first, last) } else { (last, first) }
+    };
+    let (outwards, upwards) = (speeds(axis), speeds(up));
+    let closing =
+        if rolls { [outwards.1, -outwards.0, 0.0, 0.0] } else { [-upwards.0, upwards.1, outwards.1, -outwards.0] };
+    let strides = closing.map(|speed| PICTURE_STEP * if speed > SLOWEST { speed } else { SLOWEST });
     let mut step = 0;
     while step < steps {
         let t = f64::from(step) * PICTURE_STEP;
@@ -227,9 +243,10 @@ fn arrival(spec: &FlipperSpec, gravity: DVec2, radius: f64, seen: Sight, target:
         } else {
             [above - highest, lowest - above, 0.2 * spec.length - along, along - end]
         };
-        let gap = gaps.into_iter().fold(0.0, |most, gap| if gap > most { gap } else { most });
+        let skipped = gaps.iter().zip(&strides).map(|(gap, stride)| gap / stride);
+        let skipped = skipped.fold(0.0, |most, steps| if steps > most { steps } else { most });
         // A cast saturates, and makes 0 of what is no number.
-        step = step.saturating_add(((gap / stride) as u32).max(1));
+        step = step.saturating_add((skipped as u32).max(1));
     }
     None
 }

@@ -6,12 +6,17 @@ use super::ball::Flight;
 use super::constants::{GRAZE, MOVER_HALVINGS, MOVER_PARTS};
 use super::contact::{Mobility, Surface};
 use super::flipper::{FlipperMotion, FlipperSpec, Nearest};
+use super::motion::Span;
 use super::plunger::{PlungerMotion, PlungerSpec};
 use crate::math::roots::quadratic;
 use crate::math::tangent;
 
 /// More than 1, by more than any rounding.
 const CLEARLY: f64 = 1.0 + 1e-6;
+
+/// Share of a ball's radius by which a gap is open beyond any rounding, and so is what lies between it and a touch a part of a
+/// tick before.
+const SURELY_OPEN: f64 = 1e-6;
 
 /// A ball's flight and where in it the current tick begins.
 #[derive(Debug, Clone, Copy)]
@@ -40,6 +45,8 @@ pub(super) trait Mover {
     fn velocity(&self, offset: f64, point: DVec2) -> DVec2;
     /// More than any of its points can move within the tick, in m/s, as seen by a ball `distance` away at most.
     fn top_speed(&self, until: f64) -> f64;
+    /// More than the gap to a ball can bend towards the body within `offsets`, m/s^2; infinite where it can jump.
+    fn bend(&self, ball: &BallInTick<'_>, offsets: Span) -> f64;
     /// The surface that a ball meets there.
     fn surface(&self, offset: f64, center: DVec2, normal: DVec2, radius: f64) -> Surface;
 }
@@ -105,6 +112,16 @@ impl Mover for MovingFlipper<'_> {
         rate * self.spec.reach()
     }
 
+    fn bend(&self, ball: &BallInTick<'_>, Span { from, to }: Span) -> f64 {
+        // Seen from the flipper, which is convex: whatever has no acceleration parts from it ever faster.
+        let (a, b) = (self.motion.speed_at(from).abs(), self.motion.speed_at(to).abs());
+        let turn = if a > b { a } else { b };
+        let pull = ball.flight.acceleration.length();
+        let speed = ball.velocity(from).length() + pull * (to - from);
+        let arm = (ball.position(from) - self.spec.pivot).length() + speed * (to - from);
+        pull + 2.0 * turn * (speed + turn * arm) + (turn * turn + self.motion.acceleration.abs()) * arm
+    }
+
     fn surface(&self, offset: f64, center: DVec2, normal: DVec2, radius: f64) -> Surface {
         let contact = center - normal * radius;
         let levers = [normal, tangent(normal)].map(|push| lever(self.spec, contact, push));
@@ -139,6 +156,10 @@ impl Mover for MovingPlunger<'_> {
     fn top_speed(&self, until: f64) -> f64 {
         let (a, b) = (self.motion.speed.abs(), self.motion.speed_at(until).abs());
         if a > b { a } else { b }
+    }
+
+    fn bend(&self, _ball: &BallInTick<'_>, _offsets: Span) -> f64 {
+        f64::INFINITY
     }
 
     fn surface(&self, offset: f64, center: DVec2, normal: DVec2, _radius: f64) -> Surface {
@@ -207,8 +228,19 @@ pub(super) fn first_impact(
     let least_step = tick_seconds / f64::from(MOVER_PARTS);
     let fastest =
         mover.top_speed(until) + ball.velocity(from).length() + ball.flight.acceleration.length() * tick_seconds;
+    let bend = mover.bend(ball, Span { from, to: until });
+    // Whether the gap that is `nearest` at that offset is surely open from the next moment that is looked at until the end.
+    let stays_open = |offset: f64, nearest: &Nearest| {
+        let (gap, left) = (nearest.distance - ball.radius, until - offset);
+        let contact = ball.position(offset) - nearest.normal * ball.radius;
+        let opening = (ball.velocity(offset) - mover.velocity(offset, contact)).dot(nearest.normal);
+        let least = gap + (opening - 0.5 * CLEARLY * bend * left) * left;
+        let overlap = if gap < 0.0 { -gap } else { 0.0 };
+        least > SURELY_OPEN * ball.radius + 2.0 * f64::from(MOVER_PARTS) * overlap
+    };
     let mut left = from;
-    let mut gap_left = gap(left);
+    let mut nearest = mover.nearest(left, ball.position(left));
+    let mut gap_left = nearest.distance - ball.radius;
     if gap_left <= 0.0
         && let Some(impact) = impact(left)
     {
@@ -217,12 +249,13 @@ pub(super) fn first_impact(
     while left < until {
         let safe = gap_left / fastest;
         // It does not come there before.
-        if safe > CLEARLY * (until - left) {
+        if safe > CLEARLY * (until - left) || stays_open(left, &nearest) {
             return None;
         }
         let step = if safe > least_step { safe } else { least_step };
         let right = if left + step < until { left + step } else { until };
-        let gap_right = gap(right);
+        nearest = mover.nearest(right, ball.position(right));
+        let gap_right = nearest.distance - ball.radius;
         if gap_right <= 0.0
             && gap_left > 0.0
             && let Some(impact) = impact(bisect(gap, left, right))

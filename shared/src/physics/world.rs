@@ -286,6 +286,7 @@ impl World {
         // Room for the balls that will be served: a step allocates nothing.
         self.state.reserve_balls();
         self.meetings.forget(self.state.balls.len());
+        self.scratch.forget();
         self.events.clear();
         self.before = DVec2::ZERO;
         self.wake();
@@ -471,6 +472,7 @@ impl World {
     /// has to be found anew where they come there before, but nothing that is past.
     pub(super) fn forget_nexts(&mut self, now: Instant, place: Option<Bounds>) {
         let scene = &*self.scene;
+        self.scratch.forget();
         let place = place.filter(|_| scene.motion == Motion::Exact);
         for (ball, next) in self.state.balls.iter_mut().zip(&mut self.next) {
             // What is near in time may be lost in the rounding of what is past.

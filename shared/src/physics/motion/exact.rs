@@ -32,6 +32,15 @@ impl MotionModel for Exact {
         let past = ball.past.map_or(0.0, |(t, _)| t);
         let span = Span { from: if past > query.tick.from { past } else { query.tick.from }, to };
         let (radius, ends) = (scene.radius(ball.kind), support_ends(scene, ball));
+        let is_short = to < f64::INFINITY && span.from < to;
+        if is_short
+            && let Some(grid) = &scene.grid
+            && ends.is_none_or(|ends| ends > to)
+            && scene.bounds.contains(flight.position_at(span.from))
+            && query.scratch.clearance.is_clear(scene, grid, query.state, ball, span)
+        {
+            return Next::ClearUntil(to);
+        }
         let (found, around) = first_on_path(query, flight, span, ball.past, ends, |_, collider, search| {
             if collider.role.is_passed() {
                 center_passes(flight, collider, search)

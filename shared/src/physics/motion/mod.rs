@@ -10,6 +10,7 @@
 //! | [`Motion::Swept`] | first impact along the straight chord of a tick | falls with the square of the tick |
 //! | [`Motion::Exact`] | first root of the distance along the parabola | rounding |
 
+mod clearance;
 mod discrete;
 mod exact;
 mod pixel;

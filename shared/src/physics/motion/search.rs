@@ -7,6 +7,7 @@ use super::super::constants::MOST_PIECES;
 use super::super::impact::{Search, TimeOfImpact, leaves_segment};
 use super::super::scene::{Collider, Scene};
 use super::super::shapes::{Bounds, Shape, Side};
+use super::clearance::Clearance;
 use super::{Query, Span};
 
 /// Which shapes a search has looked at: a shape that spans several cells is looked at once, a circle once in each piece of
@@ -18,11 +19,17 @@ pub(in super::super) struct Scratch {
     search: u32,
     piece: u32,
     looked_at: Vec<u32>,
+    pub(super) clearance: Clearance,
 }
 
 impl Scratch {
     pub(in super::super) fn new(colliders: usize) -> Self {
-        Self { search: 0, piece: 0, looked_at: vec![0; colliders] }
+        Self { search: 0, piece: 0, looked_at: vec![0; colliders], clearance: Clearance::default() }
+    }
+
+    /// The shapes have changed.
+    pub(in super::super) fn forget(&mut self) {
+        self.clearance.forget();
     }
 
     fn begin(&mut self) {
