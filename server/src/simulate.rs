@@ -57,6 +57,7 @@ impl<'a> Inputs<'a> {
     }
 
     /// The inputs of the game's next tick.
+    #[inline]
     pub(crate) fn choose(&mut self, game: &Game, inputs: &mut Vec<Input>) {
         inputs.clear();
         let tick = game.tick();
@@ -64,18 +65,20 @@ impl<'a> Inputs<'a> {
             Player::Nobody => {}
             Player::Bot => {
                 let mut act = |action| inputs.push(Input { tick, seat: 0, action });
-                if tick == 0 {
-                    act(Action::Sit);
-                }
                 if !game.is_playing() {
+                    if tick == 0 {
+                        act(Action::Sit);
+                    }
                     act(Action::Start);
                 }
                 self.bot.play(game, act);
             }
             Player::Inputs(log) => {
-                let due = log[self.past..].iter().take_while(|input| input.tick == tick);
-                inputs.extend(due);
-                self.past += inputs.len();
+                if log.get(self.past).is_some_and(|input| input.tick == tick) {
+                    let due = log[self.past..].iter().take_while(|input| input.tick == tick);
+                    inputs.extend(due);
+                    self.past += inputs.len();
+                }
             }
         }
     }

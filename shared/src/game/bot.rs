@@ -98,7 +98,12 @@ impl Bot {
         let dt = game.table().scene.tick_seconds;
         let (latency, every) = (((LATENCY / dt) as u64).max(1), ((THINK_EVERY / dt) as u64).max(1));
         self.had_ball = has_ball;
-        let seen = self.look(game, latency, every);
+        // The thought that it is time for, and the one that what is to be seen now is for, by number: the last ones so far.
+        let (thought, sight) = (tick / every, (tick + latency) / every);
+        let seen = if tick == thought * every { self.sight_of(thought, latency / every) } else { None };
+        if tick + latency == sight * every {
+            self.look(game, sight, latency / every);
+        }
         if has_ball {
             if let Some(seen) = seen {
                 self.think(game, seen, tick, &mut act);
@@ -108,7 +113,7 @@ impl Bot {
             self.let_go(&mut act);
         }
         // The next thought, the next look, or a hand that is due before.
-        let (thought, look) = ((tick / every + 1) * every, ((tick + latency) / every + 1) * every - latency);
+        let (thought, look) = ((thought + 1) * every, (sight + 1) * every - latency);
         let hands = self.plans.iter().filter_map(|plan| plan.press_at.or(plan.release_at)).chain(self.plunge_at);
         self.idle = tick + 1..hands.fold(thought.min(look), u64::min);
     }
@@ -132,24 +137,22 @@ impl Bot {
         }
     }
 
-    /// Remembers what is to be seen now, if it will think of it; and if it is time to think, returns what was to be seen
-    /// `latency` ticks ago.
-    fn look(&mut self, game: &Game, latency: u64, every: u64) -> Option<Sight> {
-        let tick = game.tick();
+    /// What was to be seen for that thought; `ahead` thoughts are on their way.
+    fn sight_of(&self, thought: u64, ahead: u64) -> Option<Sight> {
+        self.sights.get((thought % (ahead + 1)) as usize).copied().flatten()
+    }
+
+    /// Remembers what is to be seen now, for that thought.
+    fn look(&mut self, game: &Game, thought: u64, ahead: u64) {
         // Of one more than are on their way at once: the oldest is read before its place is taken.
-        let length = latency / every + 1;
+        let length = ahead + 1;
         self.sights.resize(length as usize, None);
-        let seen = if tick.is_multiple_of(every) { self.sights[(tick / every % length) as usize] } else { None };
-        if (tick + latency).is_multiple_of(every) {
-            let dt = game.table().scene.tick_seconds;
-            let now = Instant::start_of(tick);
-            let loose = game.world().state().balls.iter().filter(|ball| ball.saucer().is_none() && ball.floor == 0);
-            let balls = loose.map(|ball| ball.at(now, dt));
-            let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
-            let place = ((tick + latency) / every % length) as usize;
-            self.sights[place] = lowest.map(|(position, velocity)| Sight { position, velocity });
-        }
-        seen
+        let dt = game.table().scene.tick_seconds;
+        let now = Instant::start_of(game.tick());
+        let loose = game.world().state().balls.iter().filter(|ball| ball.saucer().is_none() && ball.floor == 0);
+        let balls = loose.map(|ball| ball.at(now, dt));
+        let lowest = balls.reduce(|a, b| if b.0.y < a.0.y { b } else { a });
+        self.sights[(thought % length) as usize] = lowest.map(|(position, velocity)| Sight { position, velocity });
     }
 
     fn let_go(&mut self, act: &mut impl FnMut(Action)) {
