@@ -88,7 +88,6 @@ pub struct Roster {
 
 /// What a server says.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[expect(clippy::large_enum_variant, reason = "nearly all of them are snapshots, and none is kept")]
 pub enum ServerMessage {
     /// The hello was good.
     Welcome(Welcome),
