@@ -5,12 +5,13 @@ use glam::DVec2;
 use super::ball::{Flight, Instant, Support};
 use super::constants::{MOST_SPEED, PLASTIC_SHARE};
 use super::contact::{Mobility, Moment, Response, Settled, Surface, respond, settle};
+use super::happened::{Event, EventKind};
 use super::hinge::At;
 use super::motion::{Next, Span};
 use super::movers::{BallInTick, Moments, Mover, MoverImpact, first_impact, lever};
 use super::scene::{Collider, Presence, Role};
 use super::state::TargetState;
-use super::world::{Event, EventKind, World};
+use super::world::World;
 use crate::math::tangent;
 
 /// One thing that happens within a tick.

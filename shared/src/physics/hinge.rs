@@ -21,8 +21,9 @@ use serde::{Deserialize, Serialize};
 
 use super::ball::{Instant, Support};
 use super::constants::{DEEPEST_OVERLAP, MOST_HINGE_SPEED};
+use super::happened::{Event, EventKind, NO_BALL};
 use super::shapes::{Segment, Shape};
-use super::world::{Event, EventKind, NO_BALL, World};
+use super::world::World;
 
 /// What is fixed about a plate.
 #[derive(Debug, Clone, Copy, PartialEq)]

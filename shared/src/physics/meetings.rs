@@ -9,10 +9,11 @@ use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
 use super::contact::{Body, respond_pair};
+use super::happened::EventKind;
 use super::motion::{Motion, Pair, Span};
 use super::shapes::Bounds;
 use super::ways::Ways;
-use super::world::{EventKind, World};
+use super::world::World;
 
 /// What is known about the next meeting of a ball.
 #[derive(Debug, Clone, Copy, PartialEq)]

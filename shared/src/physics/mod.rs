@@ -11,6 +11,7 @@ mod events;
 pub mod flipper;
 mod follow;
 mod friction;
+mod happened;
 pub mod hinge;
 pub mod impact;
 mod kickers;
@@ -34,5 +35,6 @@ mod ways;
 mod world;
 
 pub use constants::PHYSICS_VERSION;
+pub use happened::{Event, EventKind, NO_BALL};
 pub use state::{MOST_BALLS, MOST_PARTS, StateError, TargetState, WorldState};
-pub use world::{Event, EventKind, NO_BALL, World};
+pub use world::World;

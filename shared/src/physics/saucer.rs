@@ -8,8 +8,9 @@
 use glam::DVec2;
 
 use super::ball::{Ball, Flight, Instant, Support};
+use super::happened::EventKind;
 use super::state::StateError;
-use super::world::{EventKind, World};
+use super::world::World;
 
 /// What is fixed about a saucer.
 #[derive(Debug, Clone, Copy, PartialEq)]

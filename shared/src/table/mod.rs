@@ -8,6 +8,7 @@ mod description_tests;
 mod error;
 pub mod format;
 mod format_mechanisms;
+mod format_rules;
 pub(crate) mod locate;
 mod mechanisms;
 #[cfg(test)]

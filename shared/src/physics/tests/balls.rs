@@ -7,9 +7,10 @@ use glam::DVec2;
 use super::{ball, run};
 use crate::math::digest_of;
 use crate::physics::contact::{Body, respond_pair};
+use crate::physics::happened::EventKind;
 use crate::physics::motion::Motion;
 use crate::physics::scene::{Material, Scene};
-use crate::physics::world::{EventKind, World};
+use crate::physics::world::World;
 use crate::table::Table;
 
 const BOX: &str = "Wall(points: [(0.0, 0.0), (0.5, 0.0), (0.5, 0.5), (0.0, 0.5), (0.0, 0.0)]),";

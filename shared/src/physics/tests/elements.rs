@@ -10,7 +10,8 @@ use crate::extremes::transform::Similarity;
 use crate::math::direction;
 use crate::physics::TargetState;
 use crate::physics::ball::Support;
-use crate::physics::world::{EventKind, World};
+use crate::physics::happened::EventKind;
+use crate::physics::world::World;
 
 /// No gravity: a ball goes straight on.
 const FREE: DVec2 = DVec2::ZERO;

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::{at_rest, ball, launch, run};
 use crate::physics::World;
 use crate::physics::ball::Instant;
-use crate::physics::world::EventKind;
+use crate::physics::happened::EventKind;
 use crate::table::Table;
 
 /// A ramp from y = 0.3 to y = 0.5 between two walls of its own, with a level floor behind its crest, over a wall of the

@@ -6,9 +6,10 @@ use super::{ball, launch, run, world_with};
 use crate::extremes::transform::Similarity;
 use crate::math::digest_of;
 use crate::physics::ball::Instant;
+use crate::physics::happened::EventKind;
 use crate::physics::hinge::Push;
 use crate::physics::motion::Motion;
-use crate::physics::world::{EventKind, World};
+use crate::physics::world::World;
 
 const MASS: f64 = 0.08;
 const LEVER: f64 = 0.02;

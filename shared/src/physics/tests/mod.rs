@@ -19,7 +19,8 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Support};
-use super::world::{EventKind, World};
+use super::happened::EventKind;
+use super::world::World;
 use crate::extremes::overlap::deepest_overlap;
 use crate::table::Table;
 

@@ -7,10 +7,11 @@ use glam::DVec2;
 use super::classic;
 use crate::math::{Digest, Rng, digest_of};
 use crate::physics::ball::{Flight, Instant};
+use crate::physics::happened::Event;
 use crate::physics::motion::Motion;
 use crate::physics::needs::Needs;
 use crate::physics::scene::Scene;
-use crate::physics::world::{Event, World};
+use crate::physics::world::World;
 use crate::physics::{WorldState, ball::Ball};
 use crate::table::Table;
 

@@ -5,8 +5,9 @@ use glam::DVec2;
 use super::{ball, launch, run, support, world_with};
 use crate::math::digest_of;
 use crate::physics::ball::Support;
+use crate::physics::happened::EventKind;
 use crate::physics::motion::Motion;
-use crate::physics::world::{EventKind, World};
+use crate::physics::world::World;
 
 const DOWN: DVec2 = DVec2::new(0.0, -0.793);
 

@@ -7,9 +7,10 @@ use glam::DVec2;
 
 use super::{ball, run};
 use crate::math::{Rng, direction};
+use crate::physics::happened::{Event, EventKind};
 use crate::physics::motion::Motion;
 use crate::physics::scene::Scene;
-use crate::physics::world::{Event, EventKind, World};
+use crate::physics::world::World;
 use crate::table::Table;
 
 fn scene(text: &str) -> Scene {
