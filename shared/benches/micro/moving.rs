@@ -1,6 +1,6 @@
 //! Ticks of worlds that have a moving body and hardly anything else. How a ball meets one is the engine's own business,
-//! so whole ticks are timed: with an impact, in the tick before (the ball is near, the search comes to nothing), and
-//! without a ball.
+//! so whole ticks are timed: with an impact, in the tick before (the ball is near, the search comes to nothing), with a ball
+//! far away, with one that a flipper carries, and without a ball.
 
 use std::collections::VecDeque;
 
@@ -19,11 +19,14 @@ use super::moments::{SAMPLES, SLOTS, time_second_step};
 enum Tick {
     WithImpact,
     BallNear,
+    BallFar,
     NoBall,
 }
 
 /// Ticks after which a moving body has arrived.
 const STROKE: u64 = 40;
+/// Where a ball is far from everything, m.
+const FAR: DVec2 = DVec2::new(0.9, 0.9);
 /// Where balls are aimed at is on the body's way, m.
 const AIM: f64 = 0.05;
 
@@ -68,8 +71,15 @@ fn time(bencher: Bencher<'_, '_>, start: &World, middle: DVec2, tick: Tick, is_m
     };
     let states = Round::drawn(draw, Option::is_some);
     let mut states: Vec<_> = states.all().iter().flatten().cloned().collect();
-    if matches!(tick, Tick::NoBall) {
-        states.iter_mut().for_each(|state| state.balls.clear());
+    for state in &mut states {
+        match tick {
+            Tick::NoBall => state.balls.clear(),
+            Tick::BallFar => {
+                state.balls[0].flight.position = FAR;
+                state.balls[0].flight.velocity = DVec2::ZERO;
+            }
+            Tick::WithImpact | Tick::BallNear => {}
+        }
     }
     time_second_step(bencher, start, &states, usize::from(matches!(tick, Tick::WithImpact)));
 }
@@ -78,18 +88,23 @@ fn time(bencher: Bencher<'_, '_>, start: &World, middle: DVec2, tick: Tick, is_m
 mod flipper {
     use super::*;
 
-    /// One of Classic's, pressed at the start.
+    /// One of Classic's.
+    const FLIPPER: &str = r#"Flipper(
+        name: "flipper", material: "rubber", hand: Left, pivot: (0.5, 0.5),
+        length: 0.0635, base_radius: 0.0111, tip_radius: 0.00635, rest: 120.5, raised: 70.0,
+        inertia: 1.07e-4, torque: 0.58, ramp: 0.01, hold: 0.75, hold_within: 6.0, return_share: 0.041,
+        stop_restitution: 0.2,
+    ),"#;
+
+    fn is_moving(state: &WorldState) -> bool {
+        state.flippers[0].rest == FlipperRest::Moving
+    }
+
+    /// Pressed at the start.
     fn time_flipper(bencher: Bencher<'_, '_>, tick: Tick) {
-        let mut start = world(
-            r#"Flipper(
-                name: "flipper", material: "rubber", hand: Left, pivot: (0.5, 0.5),
-                length: 0.0635, base_radius: 0.0111, tip_radius: 0.00635, rest: 120.5, raised: 70.0,
-                inertia: 1.07e-4, torque: 0.58, ramp: 0.01, hold: 0.75, hold_within: 6.0, return_share: 0.041,
-                stop_restitution: 0.2,
-            ),"#,
-        );
+        let mut start = world(FLIPPER);
         start.press(false, true);
-        time(bencher, &start, DVec2::new(0.55, 0.5), tick, |state| state.flippers[0].rest == FlipperRest::Moving);
+        time(bencher, &start, DVec2::new(0.55, 0.5), tick, is_moving);
     }
 
     #[divan::bench]
@@ -100,6 +115,43 @@ mod flipper {
     #[divan::bench]
     fn ball_near(bencher: Bencher<'_, '_>) {
         time_flipper(bencher, Tick::BallNear);
+    }
+
+    #[divan::bench]
+    fn ball_far(bencher: Bencher<'_, '_>) {
+        time_flipper(bencher, Tick::BallFar);
+    }
+
+    /// A ball that rolled along it when it was pressed.
+    #[divan::bench]
+    fn ball_on(bencher: Bencher<'_, '_>) {
+        let start = world(FLIPPER);
+        let spec = start.scene().flippers[0].clone();
+        let carries =
+            |state: &WorldState| is_moving(state) && state.balls.iter().any(|ball| ball.support == Support::Flipper(0));
+        let draw = |rng: &mut Rng| {
+            let mut world = start.clone();
+            let axis = spec.direction(0.0);
+            let height = spec.base_radius + world.scene().radius(0);
+            world.launch(0, spec.pivot + axis * rng.between(0.01, 0.05) + axis.perp() * height, DVec2::ZERO)?;
+            for _ in 0..20 {
+                world.step();
+            }
+            world.press(false, true);
+            let mut before: Option<WorldState> = None;
+            for _ in 0..STROKE {
+                let state = world.state().clone();
+                let is_quiet = world.step().is_empty() && carries(&state) && carries(world.state());
+                if is_quiet && before.is_some() {
+                    return before;
+                }
+                before = is_quiet.then_some(state);
+            }
+            None
+        };
+        let states = Round::drawn(draw, Option::is_some);
+        let states: Vec<_> = states.all().iter().flatten().cloned().collect();
+        time_second_step(bencher, &start, &states, 0);
     }
 
     #[divan::bench]
@@ -136,6 +188,11 @@ mod plunger {
     #[divan::bench]
     fn ball_near(bencher: Bencher<'_, '_>) {
         time_plunger(bencher, Tick::BallNear);
+    }
+
+    #[divan::bench]
+    fn ball_far(bencher: Bencher<'_, '_>) {
+        time_plunger(bencher, Tick::BallFar);
     }
 
     #[divan::bench]
