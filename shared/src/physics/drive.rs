@@ -11,6 +11,12 @@ impl World {
     /// 1. Decides which flippers and plungers move in this tick.
     pub(super) fn drive_movers(&mut self) {
         let dt = self.scene.tick_seconds;
+        // As they are now: what a change of one of them asks of another must not be answered from the last tick.
+        for (motion, flipper) in self.flipper_motions.iter_mut().zip(&self.state.flippers) {
+            let FlipperState { swing, speed, rest, .. } = *flipper;
+            let now = FlipperMotion { from: 0.0, swing, speed, acceleration: 0.0 };
+            *motion = (rest == FlipperRest::Moving).then_some(now);
+        }
         for index in 0..self.state.flippers.len() {
             let flipper = self.state.flippers[index];
             let starts = match flipper.rest {
