@@ -98,7 +98,7 @@ fn a_long_tick_allocates_once_at_the_most() {
 fn games_on_classic_allocate_nothing() {
     let Some(Ok(table)) = Table::shipped("classic") else { panic!("it is shipped") };
     let mut game = Game::new(Arc::new(table));
-    let mut bot = Bot::new(0, 1);
+    let mut bot = Bot::new(0, 3);
     let mut inputs = Vec::with_capacity(8);
     let (mut lost, mut felled, mut restored) = (0, 0, 0);
     for tick in 0..200_000 {

@@ -74,8 +74,11 @@ fn arcs_are_drawn_on_their_circle_and_normals_point_to_where_a_ball_is() {
     for world in [bouncing_box(), classic()] {
         let (scene, radius) = (world.scene(), world.scene().largest_radius());
         for outline in outlines(&world) {
-            // What moves is drawn where it is.
-            let Part::Collider(index) = outline.part else { continue };
+            let index = match outline.part {
+                Part::Collider(index) => index,
+                Part::Saucer(_) => continue,
+                part => panic!("nothing moves: {part:?}"),
+            };
             let collider = &scene.colliders[usize::from(index)];
             for pair in outline.points.windows(2) {
                 let off = collider.shape.distance((pair[0] + pair[1]) * 0.5);
