@@ -6,6 +6,7 @@ use glam::DVec2;
 use super::super::ball::{Ball, Flight, Support};
 use super::super::broad_phase::Grid;
 use super::super::constants::DEEPEST_OVERLAP;
+use super::super::impact::touch_gap;
 use super::super::scene::Scene;
 use super::super::shapes::{Bounds, Shape};
 use super::super::state::WorldState;
@@ -90,5 +91,7 @@ fn look_around(scene: &Scene, grid: &Grid, state: &WorldState, ball: &Ball, plac
         };
         radius = if way < radius { way } else { radius };
     });
+    // What is as near as this is in touch already.
+    let radius = radius - 2.0 * touch_gap(&ball.flight, size);
     Clear { ball: ball.id, support: ball.support, floor: ball.floor, place, radius }
 }

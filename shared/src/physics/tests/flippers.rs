@@ -56,7 +56,7 @@ fn timing_and_speed_are_those_of_a_real_machine() {
 
 #[test]
 fn a_longer_tap_makes_a_longer_stroke() {
-    let strokes: Vec<f64> = (3..=10)
+    let strokes: Vec<f64> = (3..=8)
         .map(|held| {
             let mut world = flipper_world();
             world.press(false, true);
@@ -71,9 +71,10 @@ fn a_longer_tap_makes_a_longer_stroke() {
             highest.to_degrees()
         })
         .collect();
-    println!("strokes for taps of 3 to 10 ms: {strokes:.2?} degrees");
+    println!("strokes for taps of 3 to 8 ms: {strokes:.2?} degrees");
     assert!(strokes.windows(2).all(|pair| pair[0] < pair[1]), "{strokes:?}");
     assert!(strokes[0] > 0.5, "a tap of 3 ms must be felt");
+    assert!(strokes[5] > 50.0, "a tap of 8 ms is a full stroke");
 }
 
 /// Broke: of two flippers that met their stops at the same instant, the second one noticed a tick later.
