@@ -273,6 +273,9 @@ impl Game {
         self.world.clear_balls();
         self.play.tilt = Tilt::default();
         self.world.still_the_bob();
+        for (place, magnet) in (0..).zip(&self.table.scene.magnets) {
+            self.world.switch(place, magnet.on);
+        }
         let serve_in = self.ticks(pause);
         self.play.phase = Phase::Play {
             seat,

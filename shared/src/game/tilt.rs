@@ -65,6 +65,10 @@ impl Game {
         if let Phase::Play { extra, .. } = &mut self.play.phase {
             *extra = 0;
         }
+        // What holds a ball lets go of it.
+        for magnet in 0..self.table.scene.magnets.len() {
+            self.world.switch(magnet as u16, false);
+        }
         self.emit(GameEventKind::Tilted { seat });
     }
 }

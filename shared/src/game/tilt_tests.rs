@@ -119,3 +119,21 @@ fn a_ball_on_the_plunger_can_be_launched_after_a_tilt_and_the_next_one_begins_wi
     );
     assert!(!game.tilt().tilted);
 }
+
+#[test]
+fn a_magnet_lets_go_at_a_tilt_and_is_as_it_was_at_the_next_ball() {
+    let magnet =
+        "elements: [Magnet(name: \"m\", center: (0.237, 0.3), radius: 0.05, core: 0.01, strength: 5.0, on: true),";
+    let source = SHIPPED[0].1.replacen("elements: [", magnet, 1);
+    let mut game = Game::new(Arc::new(Table::parse("classic.ron", &source).unwrap_or_else(|error| panic!("{error}"))));
+    act(&mut game, &[Action::Sit, Action::Start]);
+    wait(&mut game, 1000);
+    assert_eq!(game.world().state().magnets, [true]);
+    while !game.tilt().tilted {
+        act(&mut game, &[Action::Nudge(Nudge::Forward)]);
+        wait(&mut game, 170);
+    }
+    assert_eq!(game.world().state().magnets, [false]);
+    act(&mut game, &[Action::Stand, Action::Sit, Action::Start]);
+    assert_eq!(game.world().state().magnets, [true]);
+}

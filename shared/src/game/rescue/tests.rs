@@ -18,6 +18,10 @@ const SHELF: DVec2 = DVec2::new(0.1, 0.5135);
 const SLING: DVec2 = DVec2::new(0.1, 0.3135);
 /// Over the trampoline it bounces for ever.
 const BOUNCE: DVec2 = DVec2::new(0.25, 0.4);
+/// Right on top of the post: it rolls off neither side.
+const ON_POST: DVec2 = DVec2::new(0.3, 0.65 + 0.005 + 0.0135);
+/// Between the left side and the bumper.
+const IN_NOOK: DVec2 = DVec2::new(0.0135, 0.211);
 /// On the plunger.
 const PLUNGER: DVec2 = DVec2::new(0.37, 0.1135);
 
@@ -35,6 +39,8 @@ fn table(start: DVec2) -> Arc<Table> {
                 Wall(name: \"frame\", material: \"wood\", points: [(0.0, 0.0), (0.0, 0.8), (0.4, 0.8), (0.4, 0.0), (0.0, 0.0)]),
                 Wall(name: \"shelf\", material: \"dead\", points: [(0.05, 0.5), (0.15, 0.5)]),
                 Slingshot(name: \"sling\", material: \"dead\", from: (0.15, 0.3), to: (0.05, 0.3), kick: 0.5, threshold: 0.1),
+                Post(name: \"post\", material: \"dead\", center: (0.3, 0.65), radius: 0.005),
+                Bumper(name: \"bumper\", material: \"wood\", center: (0.05, 0.2), radius: 0.024, kick: 0.8, threshold: 0.3),
                 Wall(name: \"trampoline\", material: \"spring\", points: [(0.2, 0.3), (0.3, 0.3)]),
                 Plunger(
                     name: \"plunger\", material: \"wood\", from: (0.352, 0.1), to: (0.388, 0.1),
@@ -116,6 +122,25 @@ fn a_ball_that_lies_on_a_slingshot_is_kicked_off_and_goes_on() {
     let (_, velocity) = game.world().state().balls[0].at(Instant::start_of(game.tick()), 0.001);
     assert!(velocity.length() > 0.1, "{velocity}");
     assert_eq!(ids(&game), [1], "the same ball");
+}
+
+#[test]
+fn a_ball_on_top_of_a_post_is_served_again() {
+    let mut game = with_balls(table(PLUNGER), &[ON_POST]);
+    assert_eq!(rescues(&mut game, 20), [(8, KICKERS), (12, RELAUNCH)]);
+    assert_eq!(ids(&game), [2]);
+}
+
+#[test]
+fn a_ball_between_a_bumper_and_a_wall_is_kicked_out() {
+    let mut game = with_balls(table(PLUNGER), &[IN_NOOK]);
+    let found = rescues(&mut game, 40);
+    assert!((8..10).contains(&found[0].0) && found[0].1 == KICKERS, "{found:?}");
+    let (position, velocity) = game.world().state().balls[0].at(Instant::start_of(game.tick()), 0.001);
+    assert!(
+        (position - IN_NOOK).length() > 0.05 || velocity.length() > 0.1,
+        "it is out: {position}, {velocity}, {found:?}"
+    );
 }
 
 #[test]
