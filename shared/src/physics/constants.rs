@@ -129,6 +129,11 @@ pub const MOST_SHAKE: f64 = 1e4;
 /// Share of its ring's radius below which a plumb bob's swing is nothing. Larger: nudges one after the other do not add up.
 pub const STILL_BOB: f64 = 1e-3;
 
+/// Angle, rad, by which a ball turns at the most along a curve while it follows one parabola, where a tick is longer: such a piece
+/// leaves the curve by a twenty-thousandth of its radius. Larger: a fast ball is seen with too much speed, and lost in tight
+/// turns. Smaller: a fast ball costs more.
+pub const ARC_ANGLE: f64 = 0.05;
+
 /// Ball radii from a target's place within which a ball keeps the target from rising: a hundredth more than a touch.
 pub const CLEAR_OF_TARGET: f64 = 1.01;
 

@@ -25,7 +25,7 @@ enum Happening {
     Plunger(usize, usize, MoverImpact),
     /// Two balls meet, the one with the lower place first.
     Balls(usize, usize),
-    /// A flipper has turned so far that a ball on it begins a new piece of flight.
+    /// A ball begins a new piece of flight along a curve, or on a flipper.
     Turned(usize),
     /// A flipper reaches an end stop, `true`: the upper one.
     FlipperStop(usize, bool),
@@ -46,7 +46,7 @@ impl World {
                 Happening::Flipper(ball, flipper, impact) => self.meet_flipper(ball, flipper, impact),
                 Happening::Plunger(ball, plunger, impact) => self.meet_plunger(ball, plunger, impact),
                 Happening::Balls(one, other) => self.meet_balls(one, other, offset),
-                Happening::Turned(ball) => self.next_piece_of_flipper(ball, offset),
+                Happening::Turned(ball) => self.begin_next_piece(ball, offset),
                 Happening::FlipperStop(flipper, raised) => self.stop_flipper(flipper, raised, offset),
                 Happening::PlungerHome(plunger) => self.stop_plunger(plunger, offset),
                 Happening::HalfTurn(hinge) => self.turn_half(hinge, offset),
@@ -425,7 +425,10 @@ impl World {
     ) {
         let is_possible = velocity.length_squared() <= MOST_SPEED * MOST_SPEED;
         let velocity = if is_possible { velocity } else { velocity * (MOST_SPEED / velocity.length()) };
-        let left = self.scene.tick_seconds - offset;
+        let left = match hit {
+            Some(index) => self.piece_of_arc(index, ball, velocity, offset),
+            None => self.scene.tick_seconds - offset,
+        };
         let (spin, radius, pull) =
             (self.state.balls[ball].spin, self.radius(ball), self.pull_on(ball, position, velocity, left));
         let ahead = 0.5 * left;

@@ -8,7 +8,7 @@
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Slide, Support};
-use super::constants::{LOST_CONTACT, SPHERE_INERTIA};
+use super::constants::{ARC_ANGLE, LOST_CONTACT, MOVER_PARTS, SPHERE_INERTIA};
 use super::flipper::Nearest;
 use super::friction::{Friction, Rub};
 use super::movers::{Mover, MovingFlipper, lever};
@@ -180,12 +180,27 @@ impl World {
         push / mass
     }
 
-    /// When in this tick a ball that a flipper carries begins its next piece of flight: the offset.
+    /// When in this tick a ball that a flipper carries, or that runs along a curve, begins its next piece of flight: the offset.
     pub(super) fn next_piece(&self, ball: usize) -> Option<f64> {
         let subject = &self.state.balls[ball];
         let start = subject.flight.start.offset;
-        let offset = start + self.piece(subject.support, start);
-        (matches!(subject.support, Support::Flipper(_)) && offset < self.scene.tick_seconds).then_some(offset)
+        let offset = match subject.support {
+            Support::Flipper(_) => start + self.piece(subject.support, start),
+            Support::Arc(index) => start + self.piece_of_arc(index, ball, subject.flight.velocity, start),
+            _ => return None,
+        };
+        (offset < self.scene.tick_seconds).then_some(offset)
+    }
+
+    /// Seconds from `offset` on for which a ball that runs along an arc at that velocity follows one parabola: until it has turned
+    /// by [`ARC_ANGLE`].
+    pub(super) fn piece_of_arc(&self, index: u16, ball: usize, velocity: DVec2, offset: f64) -> f64 {
+        let dt = self.scene.tick_seconds;
+        let Shape::Arc(arc) = &self.scene.colliders[usize::from(index)].shape else { return dt - offset };
+        let turned = ARC_ANGLE * arc.reach(self.radius(ball)) / velocity.length();
+        let (left, least) = (dt - offset, dt / f64::from(MOVER_PARTS));
+        let turned = if turned > least { turned } else { least };
+        if turned < left { turned } else { left }
     }
 
     /// Seconds for which a ball on a moving surface follows one parabola from `offset` on.
@@ -200,9 +215,13 @@ impl World {
         }
     }
 
-    /// A flipper has turned so far that it and the balls on it begin a new piece of their motion.
-    pub(super) fn next_piece_of_flipper(&mut self, ball: usize, offset: f64) {
-        let support @ Support::Flipper(index) = self.state.balls[ball].support else { return };
+    /// A ball has turned so far along a curve that it begins a new piece of flight, or a flipper so far that it and the balls on it
+    /// do.
+    pub(super) fn begin_next_piece(&mut self, ball: usize, offset: f64) {
+        let support @ Support::Flipper(index) = self.state.balls[ball].support else {
+            self.follow_surface(ball, offset);
+            return;
+        };
         self.reload_flipper(usize::from(index), offset);
         for ball in 0..self.state.balls.len() {
             if self.state.balls[ball].support == support {
