@@ -190,6 +190,10 @@ impl Game {
     /// 1. An action of a seat. What is not theirs to do now has no effect.
     fn act(&mut self, seat: u8, action: Action) {
         let Some(place) = self.play.seats.get(usize::from(seat)).copied() else { return };
+        // A tilted game hears no buttons, not even as a sign of life; its plunger is a rod of steel.
+        if self.play.tilt.tilted && matches!(action, Action::Flipper { .. } | Action::Nudge(_)) {
+            return;
+        }
         if let Phase::Play { seat: turn, quiet, .. } = &mut self.play.phase
             && *turn == seat
             && action.is_control()
@@ -214,8 +218,6 @@ impl Game {
                     self.start();
                 }
             }
-            // A tilted game hears no buttons; its plunger is a rod of steel.
-            Action::Flipper { .. } | Action::Nudge(_) if self.play.tilt.tilted => {}
             Action::Flipper { right, pressed } => {
                 if self.play.phase.has_turn(seat) {
                     if pressed {
