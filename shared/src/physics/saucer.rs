@@ -111,16 +111,6 @@ impl World {
         let balls = &self.state.balls;
         !balls.is_empty() && balls.iter().all(|ball| ball.saucer().is_some() && self.due_out(ball).is_none())
     }
-
-    /// Takes every ball out of play that lies in no saucer.
-    pub fn clear_loose_balls(&mut self) {
-        for ball in (0..self.state.balls.len()).rev() {
-            if self.state.balls[ball].saucer().is_none() {
-                self.remove(ball);
-            }
-        }
-        (self.quiet_until, self.busy_from) = (0, 0);
-    }
 }
 
 /// Whether the balls in saucers lie there as balls do, each in one of its own.

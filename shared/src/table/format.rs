@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
-pub use super::format_mechanisms::{GateFile, SaucerFile, SpinnerFile};
+pub use super::format_mechanisms::{EdgeFile, GateFile, MagnetFile, SaucerFile, SpinnerFile};
 pub use super::format_rules::{ActionFile, EventFile, RuleFile, RulesFile};
 use super::unique;
 use crate::physics::motion::Motion;
@@ -240,45 +240,6 @@ pub struct HoleFile {
     pub floor: u8,
     /// The floor that it leads to.
     pub leads_to: u8,
-}
-
-/// See [`ElementFile::Edge`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct EdgeFile {
-    /// Unique in the table.
-    pub name: String,
-    /// First end.
-    pub from: Point,
-    /// Second end.
-    pub to: Point,
-    /// The two floors that meet there.
-    pub floors: (u8, u8),
-}
-
-/// See [`ElementFile::Magnet`].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct MagnetFile {
-    /// Unique in the table.
-    pub name: String,
-    /// Centre.
-    pub center: Point,
-    /// How far its field reaches, m.
-    pub radius: f64,
-    /// Radius of its core, m.
-    pub core: f64,
-    /// Pull at the rim of the core, m/s^2.
-    pub strength: f64,
-    /// Rate at which the core brakes a ball, 1/s.
-    #[serde(default)]
-    pub drag: f64,
-    /// Whether it is on when nobody has switched it.
-    #[serde(default)]
-    pub on: bool,
-    /// The floor that it acts on; 0 is the playfield.
-    #[serde(default)]
-    pub floor: u8,
 }
 
 /// See [`ElementFile::Arc`].

@@ -1,4 +1,4 @@
-//! The written form of spinners, gates and saucers: a part of [`super::format`].
+//! The written form of spinners, gates, saucers, ramps' edges and magnets: a part of [`super::format`].
 
 use serde::{Deserialize, Serialize};
 
@@ -72,6 +72,45 @@ pub struct SaucerFile {
     #[serde(default)]
     pub hold: Option<f64>,
     /// The floor that it is on; 0 is the playfield.
+    #[serde(default)]
+    pub floor: u8,
+}
+
+/// See [`super::format::ElementFile::Edge`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EdgeFile {
+    /// Unique in the table.
+    pub name: String,
+    /// First end.
+    pub from: Point,
+    /// Second end.
+    pub to: Point,
+    /// The two floors that meet there.
+    pub floors: (u8, u8),
+}
+
+/// See [`super::format::ElementFile::Magnet`].
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MagnetFile {
+    /// Unique in the table.
+    pub name: String,
+    /// Centre.
+    pub center: Point,
+    /// How far its field reaches, m.
+    pub radius: f64,
+    /// Radius of its core, m.
+    pub core: f64,
+    /// Pull at the rim of the core, m/s^2.
+    pub strength: f64,
+    /// Rate at which the core brakes a ball, 1/s.
+    #[serde(default)]
+    pub drag: f64,
+    /// Whether it is on when nobody has switched it.
+    #[serde(default)]
+    pub on: bool,
+    /// The floor that it acts on; 0 is the playfield.
     #[serde(default)]
     pub floor: u8,
 }
