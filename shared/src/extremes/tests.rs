@@ -129,3 +129,15 @@ fn the_case_of_mechanisms_has_all_that_they_do() {
         assert!(counts.iter().all(|&count| count > 0), "{motion}: {counts:?}");
     }
 }
+
+/// Broke: a ball rode on a flipper as if nothing had happened when another one hit that, and sank into it by 9 mm.
+#[test]
+fn a_ball_on_a_flipper_that_another_one_hits_goes_on_otherwise() {
+    use super::shots::{FASTEST, MOST_BALLS, Shooting, shots};
+    let shooting = Shooting { seed: 2026, fastest: FASTEST, most_balls: MOST_BALLS, motion: Motion::Exact };
+    for number in [379_335, 94_944] {
+        let told = shots(number..number + 1, &shooting);
+        println!("shot {number}: deepest overlap {:e} m", told.deepest);
+        assert!(told.lost() == 0 && told.deepest < 3e-4, "{told:?}");
+    }
+}

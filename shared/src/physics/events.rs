@@ -255,6 +255,7 @@ impl World {
                 self.leave_stop(gives_way.flipper, offset, flipper_speed);
                 let support = Support::Flipper(gives_way.flipper as u16);
                 self.leave_mover(ball, offset, position, after.velocity, normal, support);
+                self.shake_carried(gives_way.flipper, ball, offset);
                 self.tell_touch(ball, offset, position, element, speed);
                 return;
             }
@@ -337,6 +338,7 @@ impl World {
         let flipper = &mut self.state.flippers[index];
         (flipper.swing, flipper.speed) = (motion.swing, motion.speed);
         self.leave_mover(ball, offset, position, after.velocity, normal, Support::Flipper(index as u16));
+        self.shake_carried(index, ball, offset);
         self.tell_touch(ball, offset, position, element, speed);
     }
 

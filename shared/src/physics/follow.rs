@@ -8,7 +8,7 @@
 use glam::DVec2;
 
 use super::ball::{Flight, Instant, Slide, Support};
-use super::constants::{ARC_ANGLE, LOST_CONTACT, MOVER_PARTS, SPHERE_INERTIA};
+use super::constants::{ARC_ANGLE, LOST_CONTACT, MOVER_PARTS, PIECE_ANGLE, SPHERE_INERTIA};
 use super::flipper::Nearest;
 use super::friction::{Friction, Rub};
 use super::movers::{Mover, MovingFlipper, lever};
@@ -209,9 +209,21 @@ impl World {
             Support::Flipper(index) => {
                 let index = usize::from(index);
                 let Some(motion) = self.flipper_motions[index] else { return self.scene.tick_seconds - offset };
-                self.flipper_piece(index, motion.swing_at(offset), motion.speed_at(offset), offset)
+                let piece = self.flipper_piece(index, motion.swing_at(offset), motion.speed_at(offset), offset);
+                // From slow to fast within the piece: no farther than by that angle either.
+                let turned = (2.0 * PIECE_ANGLE / motion.acceleration.abs()).sqrt();
+                if turned < piece { turned } else { piece }
             }
             _ => self.scene.tick_seconds - offset,
+        }
+    }
+
+    /// A ball has hit a flipper: it goes on otherwise, and so do the other balls on it.
+    pub(super) fn shake_carried(&mut self, index: usize, hit_by: usize, offset: f64) {
+        let support = Support::Flipper(index as u16);
+        let is_carried = |&ball: &usize| ball != hit_by && self.state.balls[ball].support == support;
+        if let Some(other) = (0..self.state.balls.len()).find(is_carried) {
+            self.begin_next_piece(other, offset);
         }
     }
 
