@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use shared::game::{Action, Bot, Game, GameEvent, GameState, Input};
+use shared::game::{Action, Bot, Game, GameState, Input};
 use shared::physics::ball::Support;
 use shared::physics::flipper::FlipperRest;
 use shared::physics::{Event, EventKind};
@@ -74,17 +74,13 @@ fn is_free_flight(state: &GameState) -> bool {
         && world.plungers.iter().all(|plunger| plunger.home && plunger.stays_home())
 }
 
-/// Moments with one ball in play, as far apart as snapshots are, each with what happened since the one before.
-pub(crate) fn snapshots(count: usize) -> Vec<(GameState, Vec<GameEvent>)> {
+/// Moments with one ball in play, as far apart as a player's snapshots are.
+pub(crate) fn snapshots(count: usize) -> Vec<GameState> {
     const TICKS: u64 = 17;
-    let (mut found, mut events) = (Vec::new(), Vec::new());
+    let mut found = Vec::new();
     play(|game, _| {
-        events.extend_from_slice(game.events());
-        if game.tick().is_multiple_of(TICKS) {
-            let since = std::mem::take(&mut events);
-            if game.world().state().balls.len() == 1 {
-                found.push((game.state(), since));
-            }
+        if game.tick().is_multiple_of(TICKS) && game.world().state().balls.len() == 1 {
+            found.push(game.state());
         }
         found.len() == count
     });

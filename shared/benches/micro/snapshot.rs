@@ -6,9 +6,10 @@ use std::sync::Arc;
 
 use divan::counter::BytesCount;
 use divan::{Bencher, black_box};
-use shared::game::Game;
+use shared::game::{Game, GameState};
 use shared::math::Rng;
-use shared::protocol::{ServerMessage, Snapshot, decode, encode};
+use shared::physics::PHYSICS_VERSION;
+use shared::protocol::{Full, ServerMessage, VERSION, decode_from_server, encode_from_server};
 
 use super::classic;
 use super::inputs::{INPUTS, Round, table};
@@ -28,7 +29,7 @@ struct Messages {
 
 impl Messages {
     fn new(scene: &'static str, messages: Vec<ServerMessage>) -> Self {
-        let total: usize = messages.iter().map(|message| encode(message).len()).sum();
+        let total: usize = messages.iter().map(|message| encode_from_server(message).len()).sum();
         Self { scene, bytes: total / messages.len(), messages }
     }
 
@@ -39,8 +40,7 @@ impl Messages {
     /// In play, with one ball.
     fn of_classic() -> Self {
         let snapshots = classic::snapshots(INPUTS).into_iter();
-        let message = |(state, events)| ServerMessage::Snapshot(Box::new(Snapshot { state, events }));
-        Self::new("classic, one ball", snapshots.map(message).collect())
+        Self::new("classic, one ball", snapshots.map(full_of).collect())
     }
 
     /// A hundred balls that bounce in a box.
@@ -61,14 +61,24 @@ impl Messages {
         ));
         let mut game = Game::new(Arc::new(scene));
         let messages = (0..INPUTS).map(|_| {
-            let mut events = Vec::new();
             for _ in 0..17 {
-                events.extend_from_slice(game.step(&[]));
+                game.step(&[]);
             }
-            ServerMessage::Snapshot(Box::new(Snapshot { state: game.state(), events }))
+            full_of(game.state())
         });
         Self::new("a hundred balls", messages.collect())
     }
+}
+
+fn full_of(state: GameState) -> ServerMessage {
+    let room = "room".to_owned();
+    ServerMessage::Full(Box::new(Full {
+        room,
+        protocol: VERSION,
+        physics: PHYSICS_VERSION,
+        table_digest: 1,
+        boards: vec![state],
+    }))
 }
 
 impl fmt::Display for Messages {
@@ -80,15 +90,15 @@ impl fmt::Display for Messages {
 #[divan::bench(args = Messages::all(), sample_size = SAMPLE, sample_count = SAMPLES)]
 fn encoding(bencher: Bencher<'_, '_>, messages: &Messages) {
     let mut round = Round::new(messages.messages.clone());
-    bencher.counter(BytesCount::new(messages.bytes)).bench_local(|| encode(black_box(round.next())));
+    bencher.counter(BytesCount::new(messages.bytes)).bench_local(|| encode_from_server(black_box(round.next())));
 }
 
 #[divan::bench(args = Messages::all(), sample_size = SAMPLE, sample_count = SAMPLES)]
 fn decoding(bencher: Bencher<'_, '_>, messages: &Messages) {
-    let frames: Vec<_> = messages.messages.iter().map(encode).collect();
+    let frames: Vec<_> = messages.messages.iter().map(encode_from_server).collect();
     for (frame, message) in frames.iter().zip(&messages.messages) {
-        assert_eq!(decode::<ServerMessage>(frame).as_ref(), Ok(message), "not what was sent");
+        assert_eq!(decode_from_server(frame).as_ref(), Ok(message), "not what was sent");
     }
     let mut round = Round::new(frames);
-    bencher.counter(BytesCount::new(messages.bytes)).bench_local(|| decode::<ServerMessage>(black_box(round.next())));
+    bencher.counter(BytesCount::new(messages.bytes)).bench_local(|| decode_from_server(black_box(round.next())));
 }

@@ -6,6 +6,9 @@ use serde::{Deserialize, Serialize};
 /// Seats at a table: players who alternate ball by ball.
 pub const SEATS: usize = 2;
 
+/// In the place of a seat: the house, which the crowd plays.
+pub const HOUSE: u8 = u8::MAX;
+
 /// Where a nudge comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Nudge {

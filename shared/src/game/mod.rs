@@ -21,7 +21,7 @@ use std::sync::Arc;
 
 pub use bot::Bot;
 pub use events::{GameEvent, GameEventKind, Rescue};
-pub use input::{Action, Input, Nudge, SEATS};
+pub use input::{Action, HOUSE, Input, Nudge, SEATS};
 pub(crate) use state::sample_play;
 pub use state::{GameState, Phase, Play, Seat};
 pub use tilt::Tilt;

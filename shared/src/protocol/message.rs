@@ -2,13 +2,16 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::game::{Action, GameEvent, GameState, SEATS};
+use super::inputs::Inputs;
+use super::snapshot::{Change, Full};
+use super::stream::Stream;
+use crate::game::{Action, SEATS};
 use crate::math::bounded;
 
 /// Longest name of a player, characters.
 const MOST_NAME: usize = 24;
-/// Most events in one snapshot; more are dropped, as they are only for show.
-pub const MOST_EVENTS: usize = 256;
+/// Most actions that a table can give the crowd.
+pub const MOST_CROWD_ACTIONS: usize = 16;
 /// Most names of a line that a roster tells.
 pub const MOST_IN_LINE: usize = 32;
 
@@ -28,6 +31,8 @@ pub struct Hello {
     pub name: String,
     /// What it comes for.
     pub role: Role,
+    /// What it wants to be sent.
+    pub stream: Stream,
 }
 
 /// What a client says after its hello.
@@ -49,13 +54,42 @@ pub enum ClientMessage {
         /// Comes back as it is.
         nonce: u64,
     },
+    /// From here on another stream. It begins with a full snapshot.
+    Stream(Stream),
+    /// What was sent does not lead to the digest that was sent, or has a gap: asks for a full snapshot. Heeded once a second.
+    Differs {
+        /// The first tick at which it differs.
+        tick: u64,
+        /// What the receiver's copy has there; 0 if it has nothing.
+        digest: u64,
+    },
+    /// A spectator's vote for what the house does next. The last one counts.
+    Vote {
+        /// Its place among the table's actions of the crowd.
+        action: u8,
+    },
+}
+
+/// How a room is played.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Up to four players alternate ball by ball on one board; the winner stays, the next in line comes up.
+    Challenge,
+    /// One player against the spectators, who vote for what the table does to the player.
+    Crowd,
+    /// Each player on a board of their own, at the same time.
+    HeadToHead,
 }
 
 /// What a server tells a client that it lets in.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Welcome {
-    /// Number of this client among all that the server has seen.
-    pub client: u32,
+    /// The room's name.
+    pub room: String,
+    /// How it is played.
+    pub mode: Mode,
+    /// Places for players in it.
+    pub places: u8,
     /// Version of the server's physics.
     pub physics: u32,
     /// Digest of the table's text.
@@ -64,26 +98,30 @@ pub struct Welcome {
     pub table: String,
 }
 
-/// The game at a tick: enough to go on from, bit for bit.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Snapshot {
-    /// Everything that changes. The next step of it plays `state.world.tick`.
-    pub state: GameState,
-    /// What happened since the snapshot before, for show.
-    #[serde(deserialize_with = "bounded::list::<_, _, MOST_EVENTS>")]
-    pub events: Vec<GameEvent>,
-}
-
 /// Who is there.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Roster {
-    /// Names by seat.
-    pub seats: [Option<String>; SEATS],
-    /// Who waits for a seat, first in line first.
+    /// Names by place: a seat on the one board, or the player of each board.
+    pub places: [Option<String>; SEATS],
+    /// Who waits for a place, first in line first; the first [`MOST_IN_LINE`] of them.
     #[serde(deserialize_with = "bounded::list::<_, _, MOST_IN_LINE>")]
     pub line: Vec<String>,
-    /// How many are connected without a seat.
+    /// How many wait.
+    pub waiting: u32,
+    /// How many are connected without a place.
     pub spectators: u32,
+    /// Who won the last game and stayed: the place, and how many they have won in a row.
+    pub champion: Option<(u8, u32)>,
+}
+
+/// What the crowd is voting for.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Tally {
+    /// Votes for each of the table's actions of the crowd.
+    #[serde(deserialize_with = "bounded::list::<_, _, MOST_CROWD_ACTIONS>")]
+    pub votes: Vec<u32>,
+    /// The tick at which they are counted; `None` while nobody votes.
+    pub closes: Option<u64>,
 }
 
 /// What a server says.
@@ -96,14 +134,20 @@ pub enum ServerMessage {
         /// For a person to read.
         reason: String,
     },
-    /// The game as it is now, [`super::SNAPSHOT_HZ`] times a second.
-    Snapshot(Box<Snapshot>),
-    /// Who is there, whenever that changes.
+    /// The whole room at a tick: at the start of a stream, on request, and every ten seconds.
+    Full(Box<Full>),
+    /// What changed since the last full snapshot or change of this stream.
+    Change(Box<Change>),
+    /// Who is there, when that changes.
     Roster(Roster),
+    /// What the crowd is voting for, when that changes.
+    Tally(Tally),
     /// What the receiver is, whenever that changes.
     You {
-        /// The seat that it has.
-        seat: Option<u8>,
+        /// Number of this client among all that the server has seen.
+        client: u32,
+        /// The place that it has.
+        place: Option<u8>,
         /// Its place in the line, from 1.
         line: Option<u16>,
     },
@@ -119,6 +163,9 @@ pub enum ServerMessage {
         /// For a person to read.
         reason: String,
     },
+    /// What was pressed since the frame before: a frame with a layout of its own.
+    #[serde(skip)]
+    Inputs(Inputs),
 }
 
 /// Whether a name can be shown to others: 1 to 24 characters, none of them a control character (they reach logs and

@@ -1,19 +1,16 @@
 //! The protocol against itself and against hostile bytes.
 
-use super::version::{sample_frames, sample_snapshot};
+use super::version::{sample_change, sample_frames, sample_full};
 use super::*;
 use crate::game::{Action, Bot, Game, Input};
 use crate::math::Rng;
 use crate::table::Table;
 
-fn message_of(snapshot: Snapshot) -> ServerMessage {
-    ServerMessage::Snapshot(Box::new(snapshot))
-}
-
 #[test]
 fn every_message_survives_the_wire() {
-    let message = message_of(sample_snapshot());
-    assert_eq!(decode::<ServerMessage>(&encode(&message)), Ok(message));
+    for message in [ServerMessage::Full(Box::new(sample_full())), ServerMessage::Change(Box::new(sample_change()))] {
+        assert_eq!(decode_from_server(&encode_from_server(&message)), Ok(message));
+    }
     let act = ClientMessage::Act { tick: u64::MAX, action: Action::Pull(1) };
     assert_eq!(decode::<ClientMessage>(&encode(&act)), Ok(act));
 }
@@ -30,16 +27,16 @@ fn a_frame_must_be_one_message_to_the_last_byte() {
 #[test]
 fn a_list_longer_than_its_bound_is_refused_before_it_is_read() {
     // A snapshot whose list of balls claims 2^32 items.
-    let mut bytes = encode(&message_of(sample_snapshot()));
-    let balls = bytes.iter().position(|&b| b == 9).expect("the count of balls: variant, needs, tick, served, count");
+    let mut bytes = encode_from_server(&ServerMessage::Full(Box::new(sample_full())));
+    let balls = bytes.iter().position(|&b| b == 9).expect("the count of balls: ..., needs, tick, served, count");
     bytes.splice(balls..=balls, [252, 255, 255, 255, 255]);
-    let error = decode::<ServerMessage>(&bytes).expect_err("must be refused");
+    let error = decode_from_server(&bytes).expect_err("must be refused");
     assert!(error.to_string().contains("at most 1000"), "{error}");
 }
 
 #[test]
 fn other_protocols_are_refused_in_plain_words() {
-    let hello = Hello { name: "x".to_owned(), role: Role::Watch };
+    let hello = Hello { name: "x".to_owned(), role: Role::Watch, stream: Stream::SPECTATOR };
     let good = encode_greeting(&hello);
     assert_eq!(decode_greeting::<Hello>(&good), Ok(hello));
 
@@ -73,7 +70,7 @@ fn mutated_frames_never_panic() {
                 _ => bytes.insert(at, rng.bits() as u8),
             }
         }
-        let _ = decode::<ServerMessage>(&bytes);
+        let _ = decode_from_server(&bytes);
         let _ = decode::<ClientMessage>(&bytes);
         let _ = decode_greeting::<Hello>(&bytes);
     }
@@ -107,10 +104,11 @@ fn a_snapshot_of_a_game_in_play_restores_bit_for_bit() {
         bot.play(&game, act);
         game.step(&inputs);
         if tick % 1777 == 0 {
-            let bytes = encode(&Snapshot { state: game.state(), events: vec![] });
+            let full = Full::of("room", std::slice::from_ref(&game));
+            let bytes = encode_from_server(&ServerMessage::Full(Box::new(full)));
             largest = largest.max(bytes.len());
-            let snapshot: Snapshot = decode(&bytes).expect("own snapshot");
-            copy.restore(snapshot.state).expect("own state");
+            let Ok(ServerMessage::Full(mut full)) = decode_from_server(&bytes) else { panic!("own snapshot") };
+            copy.restore(full.boards.remove(0)).expect("own state");
         } else {
             copy.step(&inputs);
         }

@@ -4,9 +4,12 @@ use std::sync::OnceLock;
 
 use thiserror::Error;
 
-use super::frame::encode;
-use super::message::{ClientMessage, Hello, Role, Roster, ServerMessage, Snapshot, Welcome};
-use crate::game::{Action, GameEvent, GameEventKind, GameState, Nudge, Phase, Rescue};
+use super::frame::{encode, encode_from_server};
+use super::inputs::{BoardInput, Inputs};
+use super::message::{ClientMessage, Hello, Mode, Role, Roster, ServerMessage, Tally, Welcome};
+use super::snapshot::{BoardEvent, Change, Full, Patch};
+use super::stream::{Form, Stream};
+use crate::game::{Action, GameEvent, GameEventKind, GameState, HOUSE, Input, Nudge, Phase, Rescue, SEATS};
 use crate::math::Digest;
 use crate::physics::ball::{Ball, Flight, Instant, Slide, Support};
 use crate::physics::cabinet::CabinetState;
@@ -17,7 +20,7 @@ use crate::physics::plunger::PlungerState;
 use crate::physics::{TargetState, WorldState};
 
 /// Version of the protocol. Raise it when a message changes its meaning; a change of its bytes is noticed anyway.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Bytes of a preamble: 8 of name, 4 of version, 8 of the samples' digest, all little-endian.
 pub const PREAMBLE_LENGTH: usize = 20;
@@ -114,7 +117,8 @@ fn digest_of_samples() -> u64 {
 
 /// One encoded sample of every message, with every variant of everything that messages hold.
 pub(super) fn sample_frames() -> Vec<Vec<u8>> {
-    let hellos = [Role::Play, Role::Watch].map(|role| encode(&Hello { name: "sample".to_owned(), role }));
+    let stream = Stream { form: Form::Inputs, hz: 30 };
+    let hellos = [Role::Play, Role::Watch].map(|role| encode(&Hello { name: "sample".to_owned(), role, stream }));
     let actions = [
         Action::Sit,
         Action::Stand,
@@ -127,36 +131,66 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         Action::Release,
     ];
     let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
-    let others = [ClientMessage::Play, ClientMessage::Leave, ClientMessage::Ping { nonce: 1 }];
-    let welcome = Welcome { client: 1, physics: 2, table_digest: 3, table: "()".to_owned() };
-    let roster = Roster { seats: [Some("a".to_owned()), None], line: vec!["b".to_owned()], spectators: 3 };
+    let others = [
+        ClientMessage::Play,
+        ClientMessage::Leave,
+        ClientMessage::Ping { nonce: 1 },
+        ClientMessage::Stream(Stream { form: Form::State, hz: 60 }),
+        ClientMessage::Differs { tick: 70_000, digest: 3 },
+        ClientMessage::Vote { action: 2 },
+    ];
+    let welcome = |mode| {
+        let (room, table) = ("room".to_owned(), "()".to_owned());
+        ServerMessage::Welcome(Welcome { room, mode, places: 4, physics: 2, table_digest: 3, table })
+    };
+    let mut places = <[Option<String>; SEATS]>::default();
+    places[0] = Some("a".to_owned());
+    let line = vec!["b".to_owned()];
+    let input = |tick, seat, action| BoardInput { board: 1, input: Input { tick, seat, action } };
+    let inputs = vec![input(70_000, 1, Action::Pull(300)), input(70_002, HOUSE, Action::Release)];
     let from_server = [
-        ServerMessage::Welcome(welcome),
+        welcome(Mode::Challenge),
+        welcome(Mode::Crowd),
+        welcome(Mode::HeadToHead),
         ServerMessage::Refused { reason: "full".to_owned() },
-        ServerMessage::Snapshot(Box::new(sample_snapshot())),
-        ServerMessage::Roster(roster),
-        ServerMessage::You { seat: Some(1), line: Some(2) },
+        ServerMessage::Full(Box::new(sample_full())),
+        ServerMessage::Change(Box::new(sample_change())),
+        ServerMessage::Roster(Roster { places, line, waiting: 1, spectators: 3, champion: Some((0, 2)) }),
+        ServerMessage::Tally(Tally { votes: vec![3, 300], closes: Some(70_000) }),
+        ServerMessage::You { client: 300, place: Some(1), line: Some(2) },
         ServerMessage::Pong { nonce: 1, tick: 2 },
         ServerMessage::Bye { reason: "end".to_owned() },
+        ServerMessage::Inputs(Inputs { from: 70_000, to: 70_017, digest: Some(5), inputs: inputs.clone() }),
+        ServerMessage::Inputs(Inputs { from: 70_000, to: 70_100, digest: None, inputs }),
     ];
     let mut frames = Vec::new();
     frames.extend(hellos);
     frames.extend(acts);
     frames.extend(others.iter().map(encode));
-    frames.extend(from_server.iter().map(encode));
+    frames.extend(from_server.iter().map(encode_from_server));
     // What the samples above have no place for: the other phases, and nothing where something may be.
     frames.extend([Phase::Idle, Phase::Over].iter().map(encode));
     frames.push(encode(&GameEventKind::Points { seat: 0, points: 1, place: None }));
-    frames.push(encode(&ServerMessage::You { seat: None, line: None }));
+    frames.push(encode(&ServerMessage::You { client: 1, place: None, line: None }));
     frames.push(encode(&PlungerState::default()));
     // And a world that needs nothing of it all.
-    let ball = Ball { past: None, ..sample_snapshot().state.world.balls[0] };
-    let bare = WorldState { needs: Needs::default(), balls: vec![ball], ..sample_snapshot().state.world };
+    let ball = Ball { past: None, ..sample_state().world.balls[0] };
+    let bare = WorldState { needs: Needs::default(), balls: vec![ball], ..sample_state().world };
     frames.push(encode(&bare));
     frames
 }
 
-pub(super) fn sample_snapshot() -> Snapshot {
+pub(super) fn sample_full() -> Full {
+    let boards = vec![sample_state()];
+    Full { room: "room".to_owned(), protocol: VERSION, physics: 3, table_digest: 4, boards }
+}
+
+pub(super) fn sample_change() -> Change {
+    let patch = Patch(vec![1, 2, 3]);
+    Change { from: 9, to: 10, boards: vec![patch], events: sample_events() }
+}
+
+fn sample_state() -> GameState {
     let flight = Flight {
         start: Instant { tick: 9, offset: 0.25 },
         position: glam::DVec2::new(0.1, 0.2),
@@ -197,6 +231,22 @@ pub(super) fn sample_snapshot() -> Snapshot {
         cabinet: CabinetState { push: glam::DVec2::new(0.5, 0.25), ..CabinetState::default() },
         hinges: vec![HingeState { start: Instant { tick: 9, offset: 0.25 }, angle: -0.5, speed: 20.0 }],
     };
+    let phase = Phase::Play {
+        seat: 1,
+        ball: 2,
+        serve_in: 3,
+        untouched: true,
+        still: 4,
+        watched: 7,
+        quiet: 5,
+        searches: 1,
+        extra: 6,
+    };
+    GameState { world, play: crate::game::sample_play(phase) }
+}
+
+/// One of each.
+fn sample_events() -> Vec<BoardEvent> {
     let kinds = [
         GameEventKind::Touched { element: 1, speed: 0.5 },
         GameEventKind::Kicked { element: 1, speed: 0.5 },
@@ -222,17 +272,5 @@ pub(super) fn sample_snapshot() -> Snapshot {
         GameEventKind::Warned { seat: 1 },
         GameEventKind::Tilted { seat: 1 },
     ];
-    let phase = Phase::Play {
-        seat: 1,
-        ball: 2,
-        serve_in: 3,
-        untouched: true,
-        still: 4,
-        watched: 7,
-        quiet: 5,
-        searches: 1,
-        extra: 6,
-    };
-    let events = kinds.map(|kind| GameEvent { tick: 9, kind }).to_vec();
-    Snapshot { state: GameState { world, play: crate::game::sample_play(phase) }, events }
+    kinds.map(|kind| BoardEvent { board: 1, event: GameEvent { tick: 9, kind } }).to_vec()
 }
