@@ -53,6 +53,7 @@ impl Effects {
             // One that takes the place of a ball in a lock is no multiball.
             GameEventKind::Added { .. } if loose > 0 => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
+            GameEventKind::Forfeited { .. } => self.say("TURN LOST".to_owned(), now),
             GameEventKind::Rescued { by: Rescue::Kickers } => self.say("BALL SEARCH".to_owned(), now),
             GameEventKind::Rescued { by: Rescue::Relaunch } => self.say("BALL RETURNED".to_owned(), now),
             GameEventKind::Nudged { nudge } => {

@@ -268,16 +268,18 @@ mod tests {
     }
 
     #[test]
-    fn a_second_person_joins_at_the_start_and_waits_later() {
-        let mut lobby = lobby_with(&["Ann", "Bob", "Cid"]);
+    fn others_join_at_the_start_up_to_four_and_wait_later() {
+        let mut lobby = lobby_with(&["Ann", "Bob", "Cid", "Dan", "Eve"]);
         lobby.play(0, START);
-        assert_eq!(lobby.play(1, EARLY), [(1, Action::Sit)]);
-        assert!(lobby.play(2, EARLY).is_empty(), "both seats are taken");
-        assert_eq!(lobby.state(2), Some(SessionState::InLine));
-        // Bob leaves in mid-game: Cid has to wait for its end.
+        for seat in 1..SEATS as u8 {
+            assert_eq!(lobby.play(u32::from(seat), EARLY), [(seat, Action::Sit)]);
+        }
+        assert!(lobby.play(4, EARLY).is_empty(), "all seats are taken");
+        assert_eq!(lobby.state(4), Some(SessionState::InLine));
+        // Bob leaves in mid-game: Eve has to wait for its end.
         assert_eq!(lobby.leave(1, LATE), [(1, Action::Stand)]);
         assert_eq!(lobby.fill_seats(START), [(1, Action::Sit)]);
-        assert_eq!(lobby.name_of(1), "Cid");
+        assert_eq!(lobby.name_of(1), "Eve");
     }
 
     #[test]

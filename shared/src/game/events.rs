@@ -113,6 +113,11 @@ pub enum GameEventKind {
         /// Whose.
         seat: u8,
     },
+    /// A turn was given up: what was in play is gone.
+    Forfeited {
+        /// Whose.
+        seat: u8,
+    },
     /// Something was done about a stuck or escaped ball.
     Rescued {
         /// What.

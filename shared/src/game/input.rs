@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Seats at a table: players who alternate ball by ball.
-pub const SEATS: usize = 2;
+pub const SEATS: usize = 4;
 
 /// In the place of a seat: the house, which the crowd plays.
 pub const HOUSE: u8 = u8::MAX;
@@ -43,6 +43,12 @@ pub enum Action {
     Release,
     /// Nudges the table.
     Nudge(Nudge),
+    /// Gives the ball up: whose turn it is loses the turn, and keeps the seat and the score. It is what is done about a player
+    /// who does nothing, and no control.
+    ///
+    /// The bonus is collected as at a ball that is lost. On a real machine it is no different: it throws out a ball at last that
+    /// nobody launches, nobody flips, and the bonus is counted when it drains. Only a tilt costs it.
+    Forfeit,
 }
 
 impl Action {

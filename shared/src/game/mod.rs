@@ -218,6 +218,11 @@ impl Game {
                     self.start();
                 }
             }
+            Action::Forfeit => {
+                if self.play.phase.has_turn(seat) {
+                    self.forfeit(seat);
+                }
+            }
             Action::Flipper { right, pressed } => {
                 if self.play.phase.has_turn(seat) {
                     if pressed {
@@ -264,6 +269,17 @@ impl Game {
             self.world.clear_balls();
             self.next_turn();
         }
+    }
+
+    /// A turn is given up. What has been served ends as a ball that is lost does.
+    fn forfeit(&mut self, seat: u8) {
+        let was_served = self.is_ball_of(seat);
+        self.world.clear_balls();
+        self.emit(GameEventKind::Forfeited { seat });
+        if was_served {
+            self.occasion(Occasion::BallEnd, None);
+        }
+        self.next_turn();
     }
 
     /// The player whose turn it is gets a ball in a while.

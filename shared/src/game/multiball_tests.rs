@@ -110,6 +110,18 @@ fn balls_are_locked_until_all_locks_hold_one_and_then_all_of_them_are_in_play() 
 }
 
 #[test]
+fn a_turn_with_several_balls_is_given_up_with_all_of_them() {
+    let mut game = started(TABLE);
+    place(&mut game, (0.1, 0.45), (0.0, 0.0));
+    wait_until(&mut game, |game| game.world().state().balls.len() == 2);
+    let forfeit = Input { tick: game.tick(), seat: 0, action: Action::Forfeit };
+    let told: Vec<_> = game.step(&[forfeit]).iter().map(|event| event.kind).collect();
+    assert_eq!(told, [GameEventKind::Forfeited { seat: 0 }, GameEventKind::Over]);
+    assert!(game.world().state().balls.is_empty());
+    assert_eq!((game.phase(), points(&game)), (Phase::Over, 1000));
+}
+
+#[test]
 fn a_ball_that_waits_for_what_can_no_longer_happen_is_thrown_out() {
     let mut game = started(TABLE);
     place(&mut game, (0.1, 0.45), (0.0, 0.0));

@@ -171,6 +171,43 @@ fn a_player_who_stands_up_in_mid_turn_loses_the_turn_and_the_game_goes_on() {
 }
 
 #[test]
+fn a_turn_that_is_given_up_pays_its_bonus_and_keeps_seat_and_score() {
+    let mut game = started(2);
+    assert_eq!(act(&mut game, 0, Action::Forfeit)[0], GameEventKind::Forfeited { seat: 0 }, "before it is served");
+    assert_eq!(wait_for_ball(&mut game), (1, 1));
+    assert_eq!(act(&mut game, 0, Action::Forfeit), [], "it is not theirs to give up");
+    // From the plunger, and from the middle of the table.
+    assert!(act(&mut game, 1, Action::Forfeit).contains(&GameEventKind::Forfeited { seat: 1 }));
+    assert!(game.world().state().balls.is_empty() && game.seats()[1].playing);
+    assert_eq!(wait_for_ball(&mut game), (0, 2));
+    pass(&mut game, "left orbit");
+    let score = game.seats()[0].score;
+    let told = act(&mut game, 0, Action::Forfeit);
+    let paid = GameEventKind::Points { seat: 0, points: score.bonus, place: None };
+    assert!(score.bonus > 0 && told.contains(&paid), "{told:?}");
+    assert_eq!(game.seats()[0].score, super::rules::Score { points: score.points + score.bonus, ..Default::default() });
+    for turn in [(1, 2), (0, 3), (1, 3)] {
+        assert_eq!(wait_for_ball(&mut game), turn);
+        act(&mut game, turn.0, Action::Forfeit);
+    }
+    assert_eq!(game.phase(), Phase::Over);
+    assert_eq!(act(&mut game, 1, Action::Forfeit), []);
+    assert!(!Action::Forfeit.is_control());
+}
+
+#[test]
+fn up_to_four_players_alternate() {
+    let mut game = started(SEATS as u8);
+    let mut turns = Vec::new();
+    while matches!(game.phase(), Phase::Play { .. }) {
+        turns.push(wait_for_ball(&mut game));
+        lose_ball(&mut game);
+    }
+    let expected: Vec<_> = (1..=3).flat_map(|ball| (0..4).map(move |seat| (seat, ball))).collect();
+    assert_eq!(turns, expected);
+}
+
+#[test]
 fn a_player_who_stands_up_in_anothers_turn_is_left_out_from_then_on() {
     let mut game = started(2);
     wait_for_ball(&mut game);

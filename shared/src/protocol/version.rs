@@ -129,6 +129,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         Action::Nudge(Nudge::FromRight),
         Action::Nudge(Nudge::Forward),
         Action::Release,
+        Action::Forfeit,
     ];
     let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
     let others = [
@@ -265,6 +266,7 @@ fn sample_events() -> Vec<BoardEvent> {
         GameEventKind::Served { seat: 0, ball: 1 },
         GameEventKind::Added { seat: 0 },
         GameEventKind::Lost { seat: 0 },
+        GameEventKind::Forfeited { seat: 0 },
         GameEventKind::Rescued { by: Rescue::Kickers },
         GameEventKind::Rescued { by: Rescue::Relaunch },
         GameEventKind::Over,

@@ -53,23 +53,25 @@ async fn only_whose_turn_it_is_moves_the_flippers() {
     ann.act(Action::Flipper { right: false, pressed: true }).await;
     ann.until("her flipper is up", |ann| ann.game.world().state().flippers[0].swing > 0.8).await;
     assert_eq!(ann.game.world().state().flippers[1].swing, 0.0, "his button does nothing");
-    assert_eq!(ann.roster.seats, [Some("Ann".to_owned()), Some("Bob".to_owned())]);
+    assert_eq!(ann.roster.seats, [Some("Ann".to_owned()), Some("Bob".to_owned()), None, None]);
     server.stop().await;
 }
 
 #[tokio::test]
-async fn a_third_waits_in_line_and_gets_the_seat_of_who_leaves() {
+async fn a_fifth_waits_in_line_and_gets_the_seat_of_who_leaves() {
     let server = Server::start(quiet()).await;
-    let mut ann = Client::play(&server, "Ann").await;
-    ann.until("she is seated", |ann| ann.seat == Some(0)).await;
-    let mut bob = Client::play(&server, "Bob").await;
-    bob.until("he is seated", |bob| bob.seat == Some(1)).await;
-    let mut cid = Client::play(&server, "Cid").await;
-    cid.until("he is first in line", |cid| cid.line == Some(1)).await;
-    cid.until("all know", |cid| cid.roster.line == ["Cid"]).await;
-    bob.say(ClientMessage::Leave).await;
-    cid.until("he has the seat", |cid| cid.seat == Some(1)).await;
-    bob.until("he watches", |bob| bob.seat.is_none()).await;
+    let mut seated = Vec::new();
+    for (seat, name) in (0..).zip(["Ann", "Bob", "Cid", "Dan"]) {
+        let mut client = Client::play(&server, name).await;
+        client.until("it is seated", |client| client.seat == Some(seat)).await;
+        seated.push(client);
+    }
+    let mut eve = Client::play(&server, "Eve").await;
+    eve.until("she is first in line", |eve| eve.line == Some(1)).await;
+    eve.until("all know", |eve| eve.roster.line == ["Eve"]).await;
+    seated[1].say(ClientMessage::Leave).await;
+    eve.until("she has the seat", |eve| eve.seat == Some(1)).await;
+    seated[1].until("he watches", |bob| bob.seat.is_none()).await;
     server.stop().await;
 }
 
