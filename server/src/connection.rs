@@ -1,183 +1,195 @@
-//! One client's connection: handshake, then frames both ways until either side ends it.
+//! One client's connection: handshake, then its messages to the room until either side ends it. What is said to it goes
+//! through the broadcast, which gets the way out.
 
 use std::net::SocketAddr;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Duration;
 
 use bytes::Bytes;
-use futures_util::{SinkExt, StreamExt};
-use shared::physics::PHYSICS_VERSION;
 use shared::protocol::{
-    ClientMessage, Hello, MOST_FROM_CLIENT, ServerMessage, Welcome, check_name, decode, decode_greeting, encode,
-    encode_greeting,
+    ClientMessage, Deframer, Hello, ServerMessage, check_name, decode, decode_greeting, encode_greeting, framed,
 };
 use socket2::SockRef;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
-use tokio::sync::{broadcast, mpsc, oneshot};
-use tokio::time::timeout;
-use tokio_util::codec::{FramedRead, FramedWrite, LengthDelimitedCodec};
+use tokio::sync::oneshot;
+use tokio::time::{Instant, timeout};
 
+use crate::broadcast::{Order, Orders};
+use crate::commands::{Command, Commands};
 use crate::config::Config;
-use crate::room::Command;
+use crate::listener::Permit;
+use crate::streams::wire;
 
-/// Frames for one client alone that may wait to be written; what is sent beyond is lost or told later.
-const DIRECT_WAITING: usize = 64;
-
-type Reader = FramedRead<OwnedReadHalf, LengthDelimitedCodec>;
-type Writer = FramedWrite<OwnedWriteHalf, LengthDelimitedCodec>;
-
-/// The framing on TCP: four bytes of length, little-endian, then the frame; larger ones are refused unread.
-fn codec(most: usize) -> LengthDelimitedCodec {
-    LengthDelimitedCodec::builder().length_field_type::<u32>().little_endian().max_frame_length(most).new_codec()
+/// What every connection needs of the server.
+#[derive(Clone)]
+pub(crate) struct Surroundings {
+    pub(crate) config: Arc<Config>,
+    pub(crate) commands: Commands,
+    pub(crate) orders: Orders,
+    /// The tick that the room plays next.
+    pub(crate) tick: Arc<AtomicU64>,
 }
 
 /// Serves one connection to its end.
-pub(crate) async fn serve(
-    stream: TcpStream,
-    address: SocketAddr,
-    config: Arc<Config>,
-    frames: broadcast::Sender<Bytes>,
-    commands: mpsc::Sender<Command>,
-) {
-    // Without this a small frame waits for the acknowledgement of the one before.
-    if let Err(error) = stream.set_nodelay(true) {
-        tracing::debug!(%address, "no TCP_NODELAY: {error}");
-    }
-    // With the system's own buffers a stalled client would fall minutes behind before anybody noticed.
-    if let Err(error) = SockRef::from(&stream).set_send_buffer_size(config.send_buffer) {
-        tracing::debug!(%address, "no SO_SNDBUF: {error}");
-    }
-    let (read, write) = stream.into_split();
-    let mut reader = FramedRead::new(read, codec(MOST_FROM_CLIENT));
-    let mut writer = FramedWrite::new(write, codec(shared::protocol::MOST_FROM_SERVER));
+pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surroundings, permit: Permit) {
+    let config = Arc::clone(&around.config);
+    set_options(&stream, address, &config);
+    let (read, mut write) = stream.into_split();
+    let mut reader = Reader { read, deframer: Deframer::new(config.most_frame) };
 
     let hello = tokio::select! {
-        hello = greet(&mut reader) => hello,
+        hello = greet(&mut reader, config.most_name) => hello,
         () = tokio::time::sleep(config.handshake_time) => Err("no hello came in time".to_owned()),
-        () = commands.closed() => Err("the server ends".to_owned()),
+        () = around.commands.closed() => Err("the server ends".to_owned()),
     };
     let hello = match hello {
         Ok(hello) => hello,
-        Err(reason) => return refuse(&mut writer, &config, address, reason).await,
+        Err(reason) => return refuse(&mut write, &config, address, reason).await,
     };
-    // Subscribed before the room knows of the client, so that it misses nothing that comes after.
-    let shared_frames = frames.subscribe();
-    drop(frames);
-    let (direct, direct_frames) = mpsc::channel(DIRECT_WAITING);
+    let name = hello.name.clone();
     let (reply, joined) = oneshot::channel();
-    let join = Command::Join { name: hello.name.clone(), role: hello.role, direct, reply };
-    let _ = commands.send(join).await;
-    // Without an answer the room has ended.
-    let client = match joined.await.unwrap_or_else(|_| Err("the server ends".to_owned())) {
-        Ok(client) => client,
-        Err(reason) => return refuse(&mut writer, &config, address, reason).await,
+    let (ended, end) = oneshot::channel();
+    let join = Command::Join { hello, transport: Box::new(write), ended, reply };
+    around.commands.send(join).await;
+    // Without an answer the room has ended; a room that is full has the way out and says so itself.
+    let Ok(Some(client)) = joined.await else { return };
+    tracing::info!(client, %address, name, "joined");
+    let reason = tokio::select! {
+        reason = read_messages(&mut reader, &around, client) => reason,
+        reason = end => reason.unwrap_or_else(|_| "the server ends".to_owned()),
     };
-    tracing::info!(client, %address, name = hello.name, role = ?hello.role, "joined");
+    tracing::info!(client, name, "left: {reason}");
+    around.commands.send(Command::Left { client }).await;
+    drop(permit);
+}
 
-    let welcome = ServerMessage::Welcome(Welcome {
-        client,
-        physics: PHYSICS_VERSION,
-        table_digest: config.table.digest,
-        table: config.table.source.clone(),
-    });
-    let greeting = timeout(config.write_time, writer.send(Bytes::from(encode_greeting(&welcome)))).await;
-    let reason = match greeting {
-        Ok(Ok(())) => tokio::select! {
-            reason = read_frames(&mut reader, &config, client, &commands) => reason,
-            reason = write_frames(&mut writer, &config, shared_frames, direct_frames) => reason,
-        },
-        _ => "the welcome could not be sent".to_owned(),
-    };
-    tracing::info!(client, name = hello.name, "left: {reason}");
-    // The room may have ended first: then there is nobody to tell.
-    let _ = commands.send(Command::Left { client }).await;
+fn set_options(stream: &TcpStream, address: SocketAddr, config: &Config) {
+    let socket = SockRef::from(stream);
+    let options = [
+        // Without this a small frame waits for the acknowledgement of the one before.
+        ("TCP_NODELAY", stream.set_nodelay(true)),
+        // With the system's own buffers a stalled client would fall minutes behind before anybody noticed.
+        ("SO_SNDBUF", socket.set_send_buffer_size(config.send_buffer)),
+        #[cfg(any(target_os = "linux", target_os = "android"))]
+        // A peer whose machine is gone acknowledges nothing.
+        ("TCP_USER_TIMEOUT", socket.set_tcp_user_timeout(Some(config.write_time))),
+    ];
+    for (name, outcome) in options {
+        if let Err(error) = outcome {
+            tracing::debug!(%address, "no {name}: {error}");
+        }
+    }
+}
+
+/// Frames that come in.
+struct Reader {
+    read: OwnedReadHalf,
+    deframer: Deframer,
+}
+
+impl Reader {
+    /// The next frame through `decode`; `None` at the end of the connection.
+    async fn next<T>(&mut self, decode: impl Fn(&[u8]) -> Result<T, String>) -> Option<Result<T, String>> {
+        loop {
+            match self.deframer.next_frame() {
+                Ok(Some(frame)) => return Some(decode(frame)),
+                Ok(None) => {}
+                Err(error) => return Some(Err(error.to_string())),
+            }
+            match self.read.read_buf(self.deframer.space()).await {
+                Ok(0) => return None,
+                Ok(_) => {}
+                Err(error) => return Some(Err(error.to_string())),
+            }
+        }
+    }
 }
 
 /// Reads the hello. The error is what the client is told.
-async fn greet(reader: &mut Reader) -> Result<Hello, String> {
-    let frame = match reader.next().await {
-        Some(Ok(frame)) => frame,
-        Some(Err(error)) => return Err(format!("the first frame cannot be read: {error}")),
+async fn greet(reader: &mut Reader, most_name: usize) -> Result<Hello, String> {
+    let hello = reader.next(|frame| decode_greeting::<Hello>(frame).map_err(|error| error.to_string())).await;
+    let hello = match hello {
+        Some(hello) => hello?,
         None => return Err("the connection ended before a hello".to_owned()),
     };
-    let hello: Hello = decode_greeting(&frame).map_err(|error| error.to_string())?;
     check_name(&hello.name)?;
+    if hello.name.chars().count() > most_name {
+        return Err(format!("a name has at most {most_name} characters on this server"));
+    }
+    hello.stream.check()?;
     Ok(hello)
 }
 
-async fn refuse(writer: &mut Writer, config: &Config, address: SocketAddr, reason: String) {
+/// The bytes that refuse a client.
+pub(crate) fn refusal(reason: String) -> Bytes {
+    framed(&encode_greeting(&ServerMessage::Refused { reason })).into()
+}
+
+async fn refuse(write: &mut OwnedWriteHalf, config: &Config, address: SocketAddr, reason: String) {
     tracing::info!(%address, "refused: {reason}");
-    let refusal = encode_greeting(&ServerMessage::Refused { reason });
     // Best effort: the client may be gone.
-    let _ = timeout(config.write_time, writer.send(Bytes::from(refusal))).await;
+    let _ = timeout(config.write_time, write.write_all(&refusal(reason))).await;
 }
 
 /// Hands the client's messages to the room; returns why it ends.
-async fn read_frames(reader: &mut Reader, config: &Config, client: u32, commands: &mpsc::Sender<Command>) -> String {
+async fn read_messages(reader: &mut Reader, around: &Surroundings, client: u32) -> String {
+    let mut allowance = Allowance::new(around.config.most_messages);
     loop {
-        let frame = match timeout(config.silent_time, reader.next()).await {
-            Ok(Some(frame)) => frame,
+        let message = timeout(
+            around.config.silent_time,
+            reader.next(|frame| {
+                decode::<ClientMessage>(frame).map_err(|error| format!("a frame cannot be read: {error}"))
+            }),
+        );
+        let message = match message.await {
+            Ok(Some(message)) => message,
             Ok(None) => return "it closed the connection".to_owned(),
-            Err(_) => return "it said nothing for too long".to_owned(),
+            Err(_) => Err("it said nothing for too long".to_owned()),
         };
-        let message = frame
-            .map_err(|error| error.to_string())
-            .and_then(|frame| decode::<ClientMessage>(&frame).map_err(|error| error.to_string()));
+        let message = message.and_then(|message| match allowance.take() {
+            true => Ok(message),
+            false => Err(format!("more than {} messages a second", around.config.most_messages)),
+        });
         match message {
-            Ok(message) => {
-                if commands.send(Command::Message { client, message }).await.is_err() {
-                    return "the server ends".to_owned();
-                }
+            // The room need not wake up for that.
+            Ok(ClientMessage::Ping { nonce }) => {
+                let pong = ServerMessage::Pong { nonce, tick: around.tick.load(Ordering::Relaxed) };
+                // There may be nobody to carry it out any more: the server ends.
+                let _ = around.orders.send(Order::Tell { client, frame: wire(&pong) });
             }
-            Err(problem) => {
-                let reason = format!("a frame cannot be read: {problem}");
-                // The room sends the goodbye, and with that this connection ends.
-                if commands.send(Command::Expel { client, reason: reason.clone() }).await.is_err() {
-                    return reason;
-                }
-                // Nothing behind a broken frame can be trusted; wait for the goodbye to be written.
+            Ok(message) => around.commands.send(Command::Message { client, message }).await,
+            Err(reason) => {
+                around.commands.send(Command::Expel { client, reason }).await;
+                // Nothing behind it is heard; once the goodbye is written the broadcast ends this.
                 std::future::pending::<()>().await;
             }
         }
     }
 }
 
-/// Writes what everybody gets and what this client alone gets; returns why it ends.
-async fn write_frames(
-    writer: &mut Writer,
-    config: &Config,
-    mut shared_frames: broadcast::Receiver<Bytes>,
-    mut direct_frames: mpsc::Receiver<Bytes>,
-) -> String {
-    loop {
-        let frame = tokio::select! {
-            biased;
-            frame = direct_frames.recv() => match frame {
-                Some(frame) => frame,
-                None => return close(writer, "its session is over").await,
-            },
-            frame = shared_frames.recv() => match frame {
-                Ok(frame) => frame,
-                // Every snapshot is complete: a slow client just loses some.
-                Err(broadcast::error::RecvError::Lagged(_)) => continue,
-                Err(broadcast::error::RecvError::Closed) => return close(writer, "the server ends").await,
-            },
-        };
-        match timeout(config.write_time, writer.send(frame)).await {
-            Ok(Ok(())) => {}
-            Ok(Err(error)) => return format!("writing failed: {error}"),
-            Err(_) => return "it took nothing for too long".to_owned(),
-        }
+/// How many messages a client may still send: so many a second, and twice as many in a burst.
+struct Allowance {
+    most: f64,
+    left: f64,
+    at: Instant,
+}
+
+impl Allowance {
+    fn new(a_second: u32) -> Self {
+        let most = 2.0 * f64::from(a_second);
+        Self { most, left: most, at: Instant::now() }
     }
-}
 
-async fn close(writer: &mut Writer, reason: &str) -> String {
-    // The peer may have closed first; it ends either way.
-    let _ = SinkExt::<Bytes>::close(writer).await;
-    reason.to_owned()
-}
-
-/// The shared form of a message.
-pub(crate) fn frame_of(message: &ServerMessage) -> Bytes {
-    encode(message).into()
+    fn take(&mut self) -> bool {
+        let elapsed = self.at.elapsed();
+        if elapsed > Duration::from_millis(20) {
+            self.at += elapsed;
+            self.left = (self.left + elapsed.as_secs_f64() * self.most / 2.0).min(self.most);
+        }
+        self.left -= 1.0;
+        self.left >= 0.0
+    }
 }

@@ -7,7 +7,7 @@ use plotters::prelude::*;
 use shared::feel::{Report, aim, catches};
 
 use crate::Feel;
-use crate::commands::{print, write};
+use crate::subcommands::{print, write};
 
 const SIZE: (u32, u32) = (960, 600);
 const COLORS: [RGBColor; 4] =

@@ -1,13 +1,17 @@
 //! The authoritative server: steps the world at a fixed rate and streams it to players and spectators over TCP.
 //!
 //! [`run`] gets a bound listener, a configuration and a future that ends it; tests use port 0. Inside:
-//! `listener` accepts, `connection` carries the frames of one client, `room` owns the game and everything that may
-//! change it, `lobby` knows who sits where.
+//! `listener` accepts, `connection` reads what one client says, `room` owns the games and everything that may change them
+//! (`lobby` knows who sits where, `votes` what the crowd wants), `streams` makes frames of what happened, `broadcast` writes
+//! them to everybody.
 
 mod account;
+mod broadcast;
+mod commands;
 mod config;
 mod connection;
 pub mod games;
+mod lateness;
 mod listener;
 mod lobby;
 pub mod measure;
@@ -17,27 +21,32 @@ mod room;
 pub mod seeds;
 mod session;
 pub mod simulate;
+mod streams;
 mod tables;
+mod transport;
+mod votes;
 
 use std::future::Future;
 use std::sync::Arc;
+use std::sync::atomic::AtomicU64;
 use std::time::Duration;
 
 use shared::table::Accuracy;
 use thiserror::Error;
 use tokio::net::TcpListener;
-use tokio::sync::{broadcast, mpsc};
+use tokio::sync::mpsc;
 use tokio::task::JoinSet;
 
 pub use account::Account;
 pub use config::Config;
+pub use lateness::Lateness;
 pub use session::{SessionState, is_legal};
 pub use tables::{load_table, load_text, read_table};
 
-/// Shared frames that a slow client may be behind before it loses some: one second's.
-const FRAMES_BEHIND: usize = 64;
-/// Commands that wait for the room's next tick; beyond it, connections wait.
-const COMMANDS_WAITING: usize = 1024;
+use broadcast::{Broadcast, Patience};
+use commands::Command;
+use connection::Surroundings;
+
 /// How long connections may take to say goodbye.
 const GOODBYE_TIME: Duration = Duration::from_secs(2);
 
@@ -66,25 +75,32 @@ pub async fn run(
     if let Some(asked) = config.table.accuracy {
         return Err(ServerError::Unresolved(asked));
     }
-    let (frames, _) = broadcast::channel(FRAMES_BEHIND);
-    let (commands, waiting) = mpsc::channel(COMMANDS_WAITING);
     let config = Arc::new(config);
-    let (stop, stopped) = tokio::sync::oneshot::channel();
-    let mut room = tokio::spawn(room::Room::new(Arc::clone(&config), frames.clone()).run(waiting, stopped));
+    let (commands, heard) = commands::queue();
+    let (orders, ordered) = mpsc::unbounded_channel();
+    let tick = Arc::new(AtomicU64::new(0));
+    let patience = Patience { write_time: config.write_time, goodbye_time: GOODBYE_TIME };
+    let broadcast = tokio::spawn(Broadcast::new(patience).run(ordered));
+    let room = room::Room::new(Arc::clone(&config), orders.clone(), Arc::clone(&tick));
+    let mut room = tokio::task::spawn_blocking(move || room.run(&heard));
+    let around = Surroundings { config, commands, orders, tick };
 
     let mut connections = JoinSet::new();
     tokio::select! {
-        () = listener::accept(&listener, &config, &frames, &commands, &mut connections) => {}
+        () = listener::accept(&listener, &around, &mut connections) => {}
         () = shutdown => {}
         // Only if it fails: a server without a room must not go on.
         ended = &mut room => return Ok(ended?),
     }
-    // The room says goodbye to all; with the last sender of frames gone, connections end by themselves.
-    drop(stop);
-    drop(commands);
+    // The room says goodbye to all; the broadcast writes that, and with it ends every connection.
+    around.commands.send(Command::Stop).await;
     let account = room.await?;
-    drop(frames);
-    let all_ended = async { while connections.join_next().await.is_some() {} };
+    drop(around);
+    let all_ended = async {
+        while connections.join_next().await.is_some() {}
+        // It has nobody left to write to.
+        drop(broadcast.await);
+    };
     if tokio::time::timeout(GOODBYE_TIME, all_ended).await.is_err() {
         tracing::warn!("some clients did not take the goodbye in time");
     }

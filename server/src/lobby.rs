@@ -1,14 +1,11 @@
-//! The lobby: who is connected, who sits where, who is next in line. It decides; the room turns its decisions into
-//! inputs of the game.
+//! The lobby: who is connected, who has which place, who is next in line, who stays after a game. It decides; the room
+//! turns its decisions into inputs of the game.
 
 use std::collections::{BTreeMap, VecDeque};
 
-use bytes::Bytes;
 use shared::game::{Action, SEATS};
-use shared::protocol::{MOST_IN_LINE, Roster, ServerMessage};
-use tokio::sync::mpsc;
+use shared::protocol::{MOST_IN_LINE, Mode, Roster, ServerMessage};
 
-use crate::connection::frame_of;
 use crate::session::SessionState;
 
 /// A connected client.
@@ -16,12 +13,13 @@ use crate::session::SessionState;
 struct Client {
     name: String,
     state: SessionState,
-    direct: mpsc::Sender<Bytes>,
-    /// It has not been told yet who is there and what it is.
+    /// It has, or had, a place.
+    had_place: bool,
+    /// It has not been told yet what it is.
     is_stale: bool,
 }
 
-/// Who has a seat.
+/// Who has a place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Sitter {
     /// The bot.
@@ -30,7 +28,7 @@ pub(crate) enum Sitter {
     Client(u32),
 }
 
-/// What the lobby needs to know of the game.
+/// What the lobby needs to know of the room's games.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct GameView {
     /// Somebody can still join: no game, or one that stands at its start.
@@ -39,73 +37,145 @@ pub(crate) struct GameView {
     pub(crate) is_playing: bool,
 }
 
-/// Who is connected, who sits where, who is next.
-#[derive(Debug, Default)]
-pub(crate) struct Lobby {
-    clients: BTreeMap<u32, Client>,
-    seats: [Option<Sitter>; SEATS],
-    line: VecDeque<u32>,
+/// How much of the roster changed since it was sent.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum News {
+    /// Nothing.
+    #[default]
+    None,
+    /// How many watch.
+    Count,
+    /// Who plays or waits.
+    Names,
 }
 
-/// Something the game has to be told: a seat and what it does.
+/// Who is connected, who sits where, who is next.
+#[derive(Debug)]
+pub(crate) struct Lobby {
+    mode: Mode,
+    /// Of all places, so many are used.
+    count: usize,
+    /// The bot plays against whoever is alone, where each has a board.
+    has_opponent: bool,
+    clients: BTreeMap<u32, Client>,
+    places: [Option<Sitter>; SEATS],
+    line: VecDeque<u32>,
+    /// Who won the last game and stayed: the client, and how often in a row.
+    champion: Option<(u32, u32)>,
+    news: News,
+}
+
+/// Something the game has to be told: a place and what its player does.
 pub(crate) type Deed = (u8, Action);
 
 impl Lobby {
+    /// With nobody in it.
+    pub(crate) fn new(mode: Mode, places: usize, has_bot: bool) -> Self {
+        Self {
+            mode,
+            count: places.clamp(1, SEATS),
+            has_opponent: has_bot && mode == Mode::HeadToHead && places > 1,
+            clients: BTreeMap::new(),
+            places: [None; SEATS],
+            line: VecDeque::new(),
+            champion: None,
+            news: News::None,
+        }
+    }
+
     /// A client came in; it watches until it asks for more.
-    pub(crate) fn add(&mut self, id: u32, name: String, direct: mpsc::Sender<Bytes>) {
-        self.clients.insert(id, Client { name, state: SessionState::Watching, direct, is_stale: true });
-        self.note_change();
+    pub(crate) fn add(&mut self, id: u32, name: String) {
+        let state = SessionState::Watching;
+        self.clients.insert(id, Client { name, state, had_place: false, is_stale: true });
+        self.note(News::Count);
     }
 
-    /// What a client is; `None` if it is gone.
-    pub(crate) fn state(&self, id: u32) -> Option<SessionState> {
-        self.clients.get(&id).map(|client| client.state)
+    /// What a client is, and whether it has or had a place; `None` if it is gone.
+    pub(crate) fn state(&self, id: u32) -> Option<(SessionState, bool)> {
+        self.clients.get(&id).map(|client| (client.state, client.had_place))
     }
 
-    /// A client asks for a seat, or for the next game.
+    /// A client asks for a place, or for the next game.
     pub(crate) fn play(&mut self, id: u32, game: GameView) -> Vec<Deed> {
         match self.state(id) {
-            Some(SessionState::Seated(seat)) if !game.is_playing => vec![(seat, Action::Start)],
-            Some(SessionState::Watching) => {
+            Some((SessionState::Seated(place), _)) if !game.is_playing => self.start(place),
+            Some((SessionState::Watching, _)) => {
                 self.line.push_back(id);
                 tracing::debug!(client = id, "gets in line");
                 self.set_state(id, SessionState::InLine);
-                self.fill_seats(game)
+                self.fill_places(game)
             }
             _ => Vec::new(),
         }
     }
 
-    /// A client gives its seat or its place in the line back.
+    /// Begins the next game: on one board for everybody there, else on the board of each.
+    fn start(&mut self, place: u8) -> Vec<Deed> {
+        if self.mode != Mode::HeadToHead {
+            return vec![(place, Action::Start)];
+        }
+        let mut deeds = Vec::new();
+        let taken = self.places.iter().flatten().count();
+        if taken == 1 && self.has_opponent {
+            deeds.extend(self.seat_bot());
+        }
+        let places = (0..SEATS as u8).filter(|&place| self.places[usize::from(place)].is_some());
+        deeds.extend(places.map(|place| (place, Action::Start)));
+        deeds
+    }
+
+    /// The next game, begun by the room because nobody else does; nothing if nobody is there.
+    pub(crate) fn start_for_all(&mut self) -> Vec<Deed> {
+        match self.places.iter().position(Option::is_some) {
+            Some(place) => self.start(place as u8),
+            None => Vec::new(),
+        }
+    }
+
+    /// A client gives its place, or its place in the line, back.
     pub(crate) fn leave(&mut self, id: u32, game: GameView) -> Vec<Deed> {
-        let Some(state) = self.state(id) else { return Vec::new() };
+        let Some((state, _)) = self.state(id) else { return Vec::new() };
         self.line.retain(|&waiting| waiting != id);
         self.set_state(id, SessionState::Watching);
         // Whoever asks is told, even if nothing changed.
         self.clients.entry(id).and_modify(|client| client.is_stale = true);
         match state {
-            SessionState::Seated(seat) => {
-                tracing::info!("{} leaves seat {}", self.name_of(seat), seat + 1);
-                self.seats[usize::from(seat)] = None;
-                let mut deeds = vec![(seat, Action::Stand)];
-                deeds.extend(self.fill_seats(game));
+            SessionState::Seated(place) => {
+                let mut deeds = vec![self.vacate(place)];
+                deeds.extend(self.fill_places(game));
                 deeds
             }
-            SessionState::Watching | SessionState::InLine => Vec::new(),
+            SessionState::InLine => {
+                self.note_line();
+                Vec::new()
+            }
+            SessionState::Watching => Vec::new(),
         }
+    }
+
+    fn vacate(&mut self, place: u8) -> Deed {
+        tracing::info!("{} leaves place {}", self.name_of(place), place + 1);
+        let sitter = self.places[usize::from(place)].take();
+        if let (Some(Sitter::Client(id)), Some((champion, _))) = (sitter, self.champion)
+            && id == champion
+        {
+            self.champion = None;
+        }
+        self.note(News::Names);
+        (place, Action::Stand)
     }
 
     /// A client is gone.
     pub(crate) fn remove(&mut self, id: u32, game: GameView) -> Vec<Deed> {
         let deeds = self.leave(id, game);
         if self.clients.remove(&id).is_some() {
-            self.note_change();
+            self.note(News::Count);
         }
         deeds
     }
 
     /// Seats who is next in line, as far as the game lets anybody in.
-    pub(crate) fn fill_seats(&mut self, game: GameView) -> Vec<Deed> {
+    pub(crate) fn fill_places(&mut self, game: GameView) -> Vec<Deed> {
         let mut deeds = Vec::new();
         while let Some(&next) = self.line.front() {
             // Against nobody but the bot, or nobody at all, a person begins at once.
@@ -113,57 +183,106 @@ impl Lobby {
             if !alone && !game.is_at_start {
                 break;
             }
-            if alone {
+            // Whoever comes second takes the bot's place.
+            let is_full = self.free_place().is_none();
+            if alone || is_full {
                 deeds.extend(self.send_bot_away());
             }
-            let Some(seat) = self.seats.iter().position(Option::is_none) else { break };
+            let Some(place) = self.free_place() else { break };
             self.line.pop_front();
-            self.seats[seat] = Some(Sitter::Client(next));
-            tracing::info!("{} takes seat {}", self.name_of(seat as u8), seat + 1);
-            self.set_state(next, SessionState::Seated(seat as u8));
-            deeds.push((seat as u8, Action::Sit));
+            self.places[usize::from(place)] = Some(Sitter::Client(next));
+            tracing::info!("{} takes place {}", self.name_of(place), place + 1);
+            self.set_state(next, SessionState::Seated(place));
+            self.note_line();
+            deeds.push((place, Action::Sit));
             if alone {
-                deeds.push((seat as u8, Action::Start));
+                deeds.extend(self.start(place));
             }
         }
         deeds
     }
 
-    /// The bot takes the first seat, if nobody else wants one.
-    pub(crate) fn seat_bot(&mut self) -> Vec<Deed> {
-        if self.seats.iter().any(Option::is_some) || !self.line.is_empty() {
+    fn free_place(&self) -> Option<u8> {
+        self.places[..self.count].iter().position(Option::is_none).map(|place| place as u8)
+    }
+
+    /// A game is over, with these points of those who played it. The winner of two or more stays; of the others as many as
+    /// wait make room, those with the fewest points first. Whoever played alone makes room too.
+    pub(crate) fn make_room(&mut self, scores: &[(u8, u64)]) -> Vec<Deed> {
+        let winner = scores.iter().copied().max_by_key(|&(place, points)| (points, u8::MAX - place));
+        let winner = winner.filter(|_| scores.len() > 1).map(|(place, _)| place);
+        self.crown(winner);
+        let free = self.places[..self.count].iter().filter(|place| place.is_none()).count();
+        let needed = self.line.len().saturating_sub(free);
+        let mut leaving: Vec<(u8, u64)> = scores.iter().copied().filter(|&(place, _)| Some(place) != winner).collect();
+        leaving.sort_by_key(|&(place, points)| (points, u8::MAX - place));
+        let mut deeds = Vec::new();
+        for (place, _) in leaving.into_iter().take(needed) {
+            match self.places[usize::from(place)] {
+                Some(Sitter::Client(id)) => self.set_state(id, SessionState::Watching),
+                Some(Sitter::Bot) => {}
+                None => continue,
+            }
+            deeds.push(self.vacate(place));
+        }
+        deeds
+    }
+
+    fn crown(&mut self, winner: Option<u8>) {
+        let Some(Sitter::Client(id)) = winner.and_then(|place| self.places[usize::from(place)]) else {
+            self.champion = None;
+            return self.note(News::Names);
+        };
+        let before = self.champion.filter(|&(champion, _)| champion == id).map_or(0, |(_, wins)| wins);
+        self.champion = Some((id, before + 1));
+        self.note(News::Names);
+    }
+
+    /// The bot takes the first place, if nobody else wants one.
+    pub(crate) fn attract(&mut self) -> Vec<Deed> {
+        if self.places.iter().any(Option::is_some) || !self.line.is_empty() {
             return Vec::new();
         }
-        self.seats[0] = Some(Sitter::Bot);
-        self.note_change();
-        vec![(0, Action::Sit), (0, Action::Start)]
+        let mut deeds = self.seat_bot();
+        deeds.extend(self.start_for_all());
+        deeds
+    }
+
+    /// The bot takes a place.
+    fn seat_bot(&mut self) -> Vec<Deed> {
+        let Some(place) = self.free_place() else { return Vec::new() };
+        self.places[usize::from(place)] = Some(Sitter::Bot);
+        self.note(News::Names);
+        vec![(place, Action::Sit)]
     }
 
     fn send_bot_away(&mut self) -> Vec<Deed> {
-        let Some(seat) = self.seats.iter().position(|sitter| *sitter == Some(Sitter::Bot)) else {
-            return Vec::new();
-        };
-        self.seats[seat] = None;
-        self.note_change();
-        vec![(seat as u8, Action::Stand)]
+        let bots = (0..SEATS as u8).filter(|&place| self.places[usize::from(place)] == Some(Sitter::Bot));
+        let bots: Vec<u8> = bots.collect();
+        bots.into_iter().map(|place| self.vacate(place)).collect()
     }
 
-    /// Whether a person has a seat.
+    /// Whether a person has a place.
     pub(crate) fn has_people(&self) -> bool {
-        self.seats.iter().any(|sitter| matches!(sitter, Some(Sitter::Client(_))))
+        self.places.iter().any(|sitter| matches!(sitter, Some(Sitter::Client(_))))
     }
 
-    /// Whether the bot has a seat.
-    pub(crate) fn has_bot(&self) -> bool {
-        self.seats.contains(&Some(Sitter::Bot))
+    /// Whether somebody waits.
+    pub(crate) fn has_line(&self) -> bool {
+        !self.line.is_empty()
+    }
+
+    /// Who has that place.
+    pub(crate) fn sitter(&self, place: u8) -> Option<Sitter> {
+        self.places.get(usize::from(place)).copied().flatten()
     }
 
     /// The name of who sits there.
-    pub(crate) fn name_of(&self, seat: u8) -> &str {
-        match self.seats.get(usize::from(seat)) {
-            Some(Some(Sitter::Bot)) => "BOT",
-            Some(Some(Sitter::Client(id))) => self.clients.get(id).map_or("?", |client| &client.name),
-            _ => "nobody",
+    pub(crate) fn name_of(&self, place: u8) -> &str {
+        match self.sitter(place) {
+            Some(Sitter::Bot) => "BOT",
+            Some(Sitter::Client(id)) => self.clients.get(&id).map_or("?", |client| &client.name),
+            None => "nobody",
         }
     }
 
@@ -172,158 +291,74 @@ impl Lobby {
         self.clients.len()
     }
 
-    /// Tells everybody who has not been told yet who is there, and what they are. A client that takes nothing just now
-    /// is told the next time.
-    pub(crate) fn tell_news(&mut self) {
-        if !self.clients.values().any(|client| client.is_stale) {
-            return;
-        }
-        let roster = frame_of(&ServerMessage::Roster(self.roster()));
-        for (id, client) in &mut self.clients {
-            if !client.is_stale {
-                continue;
-            }
-            let seat = match client.state {
-                SessionState::Seated(seat) => Some(seat),
-                _ => None,
-            };
-            let line = self.line.iter().position(|waiting| waiting == id);
-            let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
-            let you = frame_of(&ServerMessage::You { seat, line });
-            client.is_stale = client.direct.try_send(roster.clone()).is_err() || client.direct.try_send(you).is_err();
-        }
+    /// How much there is to tell everybody.
+    pub(crate) fn news(&self) -> News {
+        self.news
     }
 
-    /// Who is there.
-    fn roster(&self) -> Roster {
-        let seated = self.seats.iter().filter(|sitter| matches!(sitter, Some(Sitter::Client(_)))).count();
-        let mut seats = <[Option<String>; SEATS]>::default();
-        for (seat, name) in (0..).zip(&mut seats) {
-            *name = self.seats[usize::from(seat)].map(|_| self.name_of(seat).to_owned());
+    /// Who is there. It counts as told.
+    pub(crate) fn take_roster(&mut self) -> Roster {
+        self.news = News::None;
+        let seated = self.places.iter().filter(|sitter| matches!(sitter, Some(Sitter::Client(_)))).count();
+        let mut places = <[Option<String>; SEATS]>::default();
+        for (place, name) in (0..).zip(&mut places) {
+            *name = self.sitter(place).map(|_| self.name_of(place).to_owned());
         }
         let names = self.line.iter().filter_map(|id| self.clients.get(id));
+        let count = |count: usize| u32::try_from(count).unwrap_or(u32::MAX);
+        let champion = self.champion.and_then(|(id, wins)| {
+            let place = self.places.iter().position(|sitter| *sitter == Some(Sitter::Client(id)))?;
+            Some((place as u8, wins))
+        });
         Roster {
-            seats,
+            places,
             line: names.map(|client| client.name.clone()).take(MOST_IN_LINE).collect(),
-            spectators: u32::try_from(self.clients.len().saturating_sub(seated)).unwrap_or(u32::MAX),
+            waiting: count(self.line.len()),
+            spectators: count(self.clients.len().saturating_sub(seated)),
+            champion,
         }
     }
 
-    /// Sends one client a message that it can do without: one that takes nothing just now does not get it.
-    pub(crate) fn tell(&self, id: u32, message: &ServerMessage) {
-        if let Some(client) = self.clients.get(&id)
-            && client.direct.try_send(frame_of(message)).is_err()
-        {
-            tracing::debug!(client = id, "takes nothing just now");
+    /// What has to be told to single clients: what they are. It counts as told.
+    pub(crate) fn take_told(&mut self) -> Vec<(u32, ServerMessage)> {
+        let mut told = Vec::new();
+        for (&id, client) in self.clients.iter_mut().filter(|(_, client)| client.is_stale) {
+            client.is_stale = false;
+            let place = match client.state {
+                SessionState::Seated(place) => Some(place),
+                SessionState::Watching | SessionState::InLine => None,
+            };
+            let line = self.line.iter().position(|&waiting| waiting == id);
+            let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
+            told.push((id, ServerMessage::You { client: id, place, line }));
         }
-    }
-
-    /// Sends every client a message, ahead of the frames that all share.
-    pub(crate) fn tell_all(&self, message: &ServerMessage) {
-        for &id in self.clients.keys() {
-            self.tell(id, message);
-        }
+        told
     }
 
     fn set_state(&mut self, id: u32, state: SessionState) {
         if let Some(client) = self.clients.get_mut(&id)
             && client.state != state
         {
+            client.had_place |= matches!(state, SessionState::Seated(_));
             client.state = state;
-            self.note_change();
+            client.is_stale = true;
+            self.note(News::Names);
         }
     }
 
-    /// Everybody has to be told.
-    fn note_change(&mut self) {
-        for client in self.clients.values_mut() {
-            client.is_stale = true;
+    /// Whoever waits has another place in the line now.
+    fn note_line(&mut self) {
+        for id in &self.line {
+            if let Some(client) = self.clients.get_mut(id) {
+                client.is_stale = true;
+            }
         }
+    }
+
+    fn note(&mut self, news: News) {
+        self.news = self.news.max(news);
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const START: GameView = GameView { is_at_start: true, is_playing: false };
-    const EARLY: GameView = GameView { is_at_start: true, is_playing: true };
-    const LATE: GameView = GameView { is_at_start: false, is_playing: true };
-
-    fn lobby_with(names: &[&str]) -> Lobby {
-        let mut lobby = Lobby::default();
-        for (id, name) in (0..).zip(names) {
-            lobby.add(id, (*name).to_owned(), mpsc::channel(1).0);
-        }
-        lobby
-    }
-
-    #[test]
-    fn the_first_person_sends_the_bot_away_and_starts() {
-        let mut lobby = lobby_with(&["Ann"]);
-        assert_eq!(lobby.seat_bot(), [(0, Action::Sit), (0, Action::Start)]);
-        assert_eq!(lobby.play(0, LATE), [(0, Action::Stand), (0, Action::Sit), (0, Action::Start)]);
-        assert_eq!(lobby.name_of(0), "Ann");
-        assert!(lobby.seat_bot().is_empty());
-    }
-
-    #[test]
-    fn others_join_at_the_start_up_to_four_and_wait_later() {
-        let mut lobby = lobby_with(&["Ann", "Bob", "Cid", "Dan", "Eve"]);
-        lobby.play(0, START);
-        for seat in 1..SEATS as u8 {
-            assert_eq!(lobby.play(u32::from(seat), EARLY), [(seat, Action::Sit)]);
-        }
-        assert!(lobby.play(4, EARLY).is_empty(), "all seats are taken");
-        assert_eq!(lobby.state(4), Some(SessionState::InLine));
-        // Bob leaves in mid-game: Eve has to wait for its end.
-        assert_eq!(lobby.leave(1, LATE), [(1, Action::Stand)]);
-        assert_eq!(lobby.fill_seats(START), [(1, Action::Sit)]);
-        assert_eq!(lobby.name_of(1), "Eve");
-    }
-
-    #[test]
-    fn the_next_in_line_starts_when_everybody_has_left() {
-        let mut lobby = lobby_with(&["Ann", "Bob"]);
-        lobby.play(0, START);
-        lobby.play(1, LATE);
-        assert_eq!(lobby.remove(0, LATE), [(0, Action::Stand), (0, Action::Sit), (0, Action::Start)]);
-        assert_eq!(lobby.name_of(0), "Bob");
-    }
-
-    /// A client in line had a stall, its queue was full, and it never learned that it had been seated.
-    #[test]
-    fn who_took_nothing_for_a_while_is_told_later() {
-        let mut lobby = Lobby::default();
-        let (direct, mut frames) = mpsc::channel(2);
-        lobby.add(0, "Ann".to_owned(), direct);
-        lobby.tell_news();
-        lobby.play(0, START);
-        lobby.tell_news();
-        let told = |frames: &mut mpsc::Receiver<Bytes>| {
-            let mut last = None;
-            while let Ok(frame) = frames.try_recv() {
-                if let Ok(ServerMessage::You { seat, .. }) = shared::protocol::decode(&frame) {
-                    last = Some(seat);
-                }
-            }
-            last
-        };
-        assert_eq!(told(&mut frames), Some(None), "the second news found the queue full");
-        lobby.tell_news();
-        assert_eq!(told(&mut frames), Some(Some(0)));
-        lobby.tell_news();
-        assert_eq!(told(&mut frames), None, "nobody is told twice");
-    }
-
-    #[test]
-    fn whoever_gives_up_a_place_in_line_is_not_seated() {
-        let mut lobby = lobby_with(&["Ann", "Bob"]);
-        lobby.play(0, START);
-        lobby.play(1, LATE);
-        assert!(lobby.leave(1, LATE).is_empty());
-        assert!(lobby.fill_seats(START).is_empty());
-        let roster = lobby.roster();
-        assert_eq!((roster.spectators, roster.line.len()), (1, 0));
-    }
-}
+mod tests;

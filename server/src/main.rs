@@ -1,15 +1,19 @@
 //! The headless server's command line: `starball-server` serves, its subcommands play without network.
 
-mod commands;
 mod feel;
+mod subcommands;
 
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
+use std::sync::Arc;
+use std::time::Duration;
 
-use clap::{Args, Parser, Subcommand};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use shared::game::SEATS;
 use shared::physics::motion::Motion;
-use shared::table::Horizon;
+use shared::protocol::{MOST_FROM_CLIENT, MOST_NAME, Mode};
+use shared::table::{Horizon, Table};
 use starball_server::{Config, load_table};
 use tokio::net::TcpListener;
 use tracing_subscriber::EnvFilter;
@@ -59,9 +63,68 @@ struct Serve {
     /// What the bot's habits follow from.
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// How the room is played: players alternate on one table and the winner stays, or one plays against what the spectators
+    /// vote for, or each has a table of their own at the same time.
+    #[arg(long, value_enum, default_value_t = ModeName::Challenge)]
+    mode: ModeName,
+    /// Places for players. Left out: 4 in a challenge, 1 against the crowd, 2 head to head.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=SEATS as i64))]
+    places: Option<u8>,
+    #[command(flatten)]
+    limits: Limits,
+}
+
+/// What clients may do to the server. Whoever does more is refused or sent away with a reason.
+#[derive(Debug, Args)]
+struct Limits {
     /// Most clients at once.
-    #[arg(long, default_value_t = 256, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 256, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     most_connections: u32,
+    /// Most connections from one address at once.
+    #[arg(long, default_value_t = 64, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    most_per_address: u32,
+    /// Most messages of a client in a second; twice as many may come in a burst.
+    #[arg(long, default_value_t = 250, value_name = "N", value_parser = clap::value_parser!(u32).range(10..=100_000))]
+    most_messages: u32,
+    /// Largest frame of a client, bytes.
+    #[arg(long, default_value_t = MOST_FROM_CLIENT as u32, value_name = "BYTES", value_parser = clap::value_parser!(u32).range(64..=MOST_FROM_CLIENT as i64))]
+    most_frame: u32,
+    /// Longest name, characters.
+    #[arg(long, default_value_t = MOST_NAME as u32, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=MOST_NAME as i64))]
+    most_name: u32,
+    /// Seconds in which a client has to say hello.
+    #[arg(long, default_value_t = 5, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..=3600))]
+    handshake: u32,
+    /// Seconds for which a client may say nothing at all.
+    #[arg(long, default_value_t = 15, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(6..=86_400))]
+    silence: u32,
+    /// Seconds for which a player may leave the controls alone before the turn is lost.
+    #[arg(long, default_value_t = 30, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(5..=86_400))]
+    idle: u32,
+    /// Seconds for which a client may take nothing of what is sent to it.
+    #[arg(long, default_value_t = 10, value_name = "SECONDS", value_parser = clap::value_parser!(u32).range(1..=3600))]
+    stall: u32,
+}
+
+/// The modes by the names that a host types.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum ModeName {
+    /// Players alternate ball by ball; the winner stays, the next in line comes up.
+    Challenge,
+    /// One player against the spectators.
+    Crowd,
+    /// Each player on a table of their own, at the same time.
+    HeadToHead,
+}
+
+impl From<ModeName> for Mode {
+    fn from(name: ModeName) -> Self {
+        match name {
+            ModeName::Challenge => Self::Challenge,
+            ModeName::Crowd => Self::Crowd,
+            ModeName::HeadToHead => Self::HeadToHead,
+        }
+    }
 }
 
 #[derive(Debug, Args)]
@@ -189,11 +252,11 @@ fn measured_seconds(text: &str) -> Result<f64, String> {
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let outcome = match arguments.command {
-        Some(Command::Simulate(arguments)) => commands::simulate(&arguments),
-        Some(Command::Games(arguments)) => commands::games(&arguments),
-        Some(Command::Extremes(arguments)) => commands::extremes(arguments.shots),
+        Some(Command::Simulate(arguments)) => subcommands::simulate(&arguments),
+        Some(Command::Games(arguments)) => subcommands::games(&arguments),
+        Some(Command::Extremes(arguments)) => subcommands::extremes(arguments.shots),
         Some(Command::Feel(arguments)) => feel::feel(&arguments),
-        Some(Command::Measure(arguments)) => commands::measure(&arguments),
+        Some(Command::Measure(arguments)) => subcommands::measure(&arguments),
         None => serve(&arguments.serve),
     };
     match outcome {
@@ -220,10 +283,7 @@ fn serve(arguments: &Serve) -> Result<(), String> {
             arguments.table, arguments.table
         ));
     }
-    let mut config = Config::new(table);
-    config.attract = !arguments.no_bot;
-    config.seed = arguments.seed;
-    config.most_connections = arguments.most_connections as usize;
+    let config = config_of(arguments, table);
     let runtime = tokio::runtime::Runtime::new().map_err(|error| format!("cannot start the runtime: {error}"))?;
     runtime.block_on(async {
         let listener = TcpListener::bind(&arguments.listen)
@@ -236,6 +296,25 @@ fn serve(arguments: &Serve) -> Result<(), String> {
         say(&account);
         Ok(())
     })
+}
+
+fn config_of(arguments: &Serve, table: Arc<Table>) -> Config {
+    let seconds = |seconds: u32| Duration::from_secs(u64::from(seconds));
+    let limits = &arguments.limits;
+    let mut config = Config::new(table).mode(arguments.mode.into());
+    config.places = arguments.places.map_or(config.places, usize::from);
+    config.attract = !arguments.no_bot;
+    config.seed = arguments.seed;
+    config.most_connections = limits.most_connections as usize;
+    config.most_per_address = limits.most_per_address as usize;
+    config.most_messages = limits.most_messages;
+    config.most_frame = limits.most_frame as usize;
+    config.most_name = limits.most_name as usize;
+    config.handshake_time = seconds(limits.handshake);
+    config.silent_time = seconds(limits.silence);
+    config.idle_time = seconds(limits.idle);
+    config.write_time = seconds(limits.stall);
+    config
 }
 
 /// Ready at Ctrl-C or SIGTERM.

@@ -1,218 +1,220 @@
-//! The room: one game, everybody who plays or watches it, and the clock that drives it.
+//! The room: its games, everybody who plays or watches them, and the clock that drives them.
 //!
-//! [`Room::tick`] is the main flow. Nothing else changes the game, and everything that does is an input with a tick.
+//! [`Room::tick`] is the main flow. Nothing else changes a game, and everything that does is an input with a tick. The room is
+//! a thread of its own: it sleeps until its next tick or the next command, and no crowd of sockets can hold it up.
+
+mod controls;
+mod hands;
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::RecvTimeoutError;
+use std::time::{Duration, Instant};
 
 use bytes::Bytes;
-use shared::game::{Action, Bot, Game, GameEvent, GameEventKind, Input, Phase, Rescue, SEATS};
+use shared::game::{Action, Game, GameEventKind, HOUSE, Input, Phase, Rescue, SEATS};
+use shared::physics::PHYSICS_VERSION;
 use shared::protocol::{
-    ClientMessage, MOST_EVENTS, NUDGE_SECONDS, Role, SNAPSHOT_HZ, ServerMessage, Snapshot, TAP_TICKS,
+    BoardEvent, BoardInput, ClientMessage, Hello, Mode, REQUEST_SECONDS, Role, ServerMessage, Stream, Welcome,
+    encode_greeting, framed,
 };
-use tokio::sync::{broadcast, mpsc, oneshot};
-use tokio::time::{Instant, MissedTickBehavior};
+use tokio::sync::oneshot;
 
 use crate::account::Account;
+use crate::broadcast::{NewsKind, Order, Orders};
+use crate::commands::{Command, Heard};
 use crate::config::Config;
-use crate::connection::frame_of;
-use crate::lobby::{Deed, GameView, Lobby};
+use crate::lobby::{Deed, GameView, Lobby, News, Sitter};
 use crate::pacing::Pacer;
 use crate::session::{SessionState, is_legal};
+use crate::streams::{Streams, wire};
+use crate::transport::Outgoing;
+use crate::votes::Votes;
+use controls::Controls;
+use hands::Hands;
 
-/// How often the room wakes to step what is due: a fourth of a snapshot's interval.
+/// How often the room wakes to step what is due: a fourth of a player's interval.
 const WAKE_EVERY: Duration = Duration::from_millis(4);
-/// Commands that are heard at each wake, however late it is.
-const COMMANDS_A_WAKE: usize = 256;
-/// Seconds by which a player may stamp an input ahead.
-const MOST_LEAD: f64 = 0.25;
-/// Controls of one seat that may wait for their tick; more are dropped.
-const MOST_PENDING: usize = 128;
 /// Seconds without a game after which the bot begins one.
 const BOT_PATIENCE: f64 = 3.0;
-/// Things of a seat that a control works: two flippers, the plunger and the table itself.
-const PARTS: usize = 4;
+/// Seconds after a game until the next begins by itself, if somebody new came up for it.
+const NEXT_GAME_PAUSE: f64 = 8.0;
+/// Seconds between two rosters when only the number of spectators changed.
+const COUNT_PAUSE: f64 = 1.0;
+/// Seconds between two rosters, and between two tallies.
+const NEWS_PAUSE: f64 = 0.25;
 
-/// What connections ask of the room.
-#[derive(Debug)]
-pub(crate) enum Command {
-    /// A client said hello.
-    Join {
-        /// Checked.
-        name: String,
-        /// What it comes for.
-        role: Role,
-        /// Frames for it alone.
-        direct: mpsc::Sender<Bytes>,
-        /// Who it is now, or why it is not let in.
-        reply: oneshot::Sender<Result<u32, String>>,
-    },
-    /// A client said something.
-    Message {
-        /// Which.
-        client: u32,
-        /// What.
-        message: ClientMessage,
-    },
-    /// A client said something that nobody understands.
-    Expel {
-        /// Which.
-        client: u32,
-        /// What it is told.
-        reason: String,
-    },
-    /// A client is gone.
-    Left {
-        /// Which.
-        client: u32,
-    },
+/// What a client is to the streams.
+struct Follower {
+    stream: Stream,
+    /// The tick from which on another full snapshot is given on request.
+    next_full: u64,
 }
 
-/// When a control was stamped, and when it acts.
-#[derive(Debug, Clone, Copy, Default)]
-struct Stamp {
-    asked: u64,
-    acts: u64,
-}
-
-/// A game and everybody around it.
+/// Games and everybody around them.
 pub(crate) struct Room {
     config: Arc<Config>,
-    game: Game,
+    games: Vec<Game>,
     lobby: Lobby,
-    bot: Bot,
-    frames: broadcast::Sender<Bytes>,
-    /// Inputs for ticks to come.
-    pending: Vec<Input>,
-    /// For each seat and part, its last control.
-    stamps: [[Stamp; PARTS]; SEATS],
-    /// What happened since the last snapshot.
-    events: Vec<GameEvent>,
+    followers: std::collections::BTreeMap<u32, Follower>,
+    streams: Streams,
+    orders: Orders,
+    votes: Votes,
+    controls: Controls,
+    hands: Hands,
+    /// The tick for connections to read.
+    shared_tick: Arc<AtomicU64>,
+    welcome: Bytes,
+    /// A game was on in the tick before.
+    was_playing: bool,
     /// Ticks without a game.
     idle_ticks: u64,
+    /// Ticks until the next game begins by itself; 0: it does not.
+    next_game_in: u64,
+    next_roster: u64,
+    next_tally: u64,
     next_client: u32,
-    /// Flippers in the upper part of a stroke that was counted, one bit each.
-    raised: u64,
     account: Account,
 }
 
 impl Room {
-    pub(crate) fn new(config: Arc<Config>, frames: broadcast::Sender<Bytes>) -> Self {
+    pub(crate) fn new(config: Arc<Config>, orders: Orders, shared_tick: Arc<AtomicU64>) -> Self {
+        let boards = if config.mode == Mode::HeadToHead { config.places.clamp(1, SEATS) } else { 1 };
+        let has_bot = config.attract;
         Self {
-            game: Game::new(Arc::clone(&config.table)),
-            lobby: Lobby::default(),
-            bot: Bot::new(0, config.seed),
-            frames,
-            pending: Vec::new(),
-            stamps: Default::default(),
-            events: Vec::new(),
+            games: (0..boards).map(|_| Game::new(Arc::clone(&config.table))).collect(),
+            lobby: Lobby::new(config.mode, config.places, has_bot),
+            followers: Default::default(),
+            streams: Streams::new(config.room.clone(), orders.clone()),
+            orders,
+            votes: Votes::default(),
+            controls: Controls::new(&config),
+            hands: Hands::new(&config),
+            shared_tick,
+            welcome: welcome(&config),
+            was_playing: false,
             idle_ticks: 0,
+            next_game_in: 0,
+            next_roster: 0,
+            next_tally: 0,
             next_client: 1,
-            raised: 0,
             account: Account::default(),
             config,
         }
     }
 
-    /// Runs until `stopped` is dropped or ready; says goodbye to everybody.
-    pub(crate) async fn run(
-        mut self,
-        mut commands: mpsc::Receiver<Command>,
-        mut stopped: oneshot::Receiver<()>,
-    ) -> Account {
+    /// Runs until it is told to stop; says goodbye to everybody.
+    pub(crate) fn run(mut self, heard: &Heard) -> Account {
         let begin = Instant::now();
-        let mut pacer = Pacer::new(1.0 / self.game.table().scene.tick_seconds, Duration::ZERO);
-        let mut wake = tokio::time::interval(WAKE_EVERY);
-        wake.set_missed_tick_behavior(MissedTickBehavior::Delay);
+        let mut pacer = Pacer::new(1.0 / self.tick_seconds(), Duration::ZERO);
+        let mut wake = WAKE_EVERY;
         loop {
-            tokio::select! {
-                biased;
-                _ = &mut stopped => break,
-                _ = wake.tick() => {
-                    let due = pacer.due(begin.elapsed());
-                    self.account.ticks_skipped += due.skipped;
-                    if due.skipped > 0 {
-                        tracing::warn!("the machine stalled: {} ticks given up", due.skipped);
-                    }
-                    for _ in 0..due.ticks {
-                        self.tick();
-                    }
-                    // On a machine that is always late the next wake is due already: nobody must wait for ever.
-                    for _ in 0..COMMANDS_A_WAKE {
-                        let Ok(command) = commands.try_recv() else { break };
-                        self.handle(command);
-                    }
-                }
-                Some(command) = commands.recv() => self.handle(command),
+            let now = begin.elapsed();
+            match heard.queue.recv_timeout(wake.saturating_sub(now)) {
+                Ok(Command::Stop) | Err(RecvTimeoutError::Disconnected) => break,
+                Ok(command) => self.handle(command),
+                Err(RecvTimeoutError::Timeout) => {}
             }
+            let now = begin.elapsed();
+            if now < wake {
+                continue;
+            }
+            self.account.lateness.note(now - wake);
+            let due = pacer.due(now);
+            self.account.ticks_skipped += due.skipped;
+            if due.skipped > 0 {
+                tracing::warn!("the machine stalled: {} ticks given up", due.skipped);
+            }
+            for _ in 0..due.ticks {
+                self.tick();
+            }
+            // A wake that was missed is not made up for: the next batch is the larger.
+            wake += WAKE_EVERY;
+            wake = wake.max(begin.elapsed());
         }
-        self.lobby.tell_all(&ServerMessage::Bye { reason: "the server ends".to_owned() });
+        self.tell_all(&ServerMessage::Bye { reason: "the server ends".to_owned() });
+        self.order(Order::End);
         self.account
     }
 
     /// One tick of the room.
     fn tick(&mut self) {
-        let tick = self.game.tick();
-        // 1. Who sits: the next in line, or the bot when nobody wants to.
-        self.fill_seats();
-        // 2. The bot's hands.
-        if self.lobby.has_bot() {
-            let pending = &mut self.pending;
-            self.bot.play(&self.game, |action| pending.push(Input { tick, seat: 0, action }));
+        let tick = self.now();
+        // 1. Who plays: the next in line, or the bot when nobody wants to; who leaves the controls alone loses the turn.
+        self.fill_places();
+        self.hurry_idlers();
+        // 2. The bot's hands, and the crowd's.
+        self.hands.play(&self.games, &self.lobby, &mut self.controls);
+        self.count_votes();
+        // 3. Each game plays the tick with the inputs that are due.
+        let due = self.controls.take_due(tick);
+        for (board, game) in (0_u8..).zip(&mut self.games) {
+            let inputs: Vec<Input> = due.iter().filter(|due| due.board == board).map(|due| due.input).collect();
+            game.step(&inputs);
         }
-        // 3. The game plays the tick with the inputs that are due.
-        self.game.step(&self.pending);
-        self.pending.retain(|input| input.tick > tick);
+        self.streams.note_inputs(&due);
         self.account.ticks += 1;
-        // 4. What happened: for the account, the log and the spectators.
+        self.shared_tick.store(self.now(), Ordering::Relaxed);
+        // 4. What happened: for the account, the log and whoever does not simulate.
         self.note_events();
-        // 5. Sixty times a second: who is there, for whom that is news; and the game as it is now, for all.
-        if self.is_snapshot_due() {
-            self.lobby.tell_news();
-            self.send_snapshot();
-        }
+        self.note_end_of_game();
+        // 5. Every stream's frame that is due; and who is there, for whom that is news.
+        self.streams.send_due(&self.games, &mut self.account);
+        self.tell_news();
     }
 
     fn handle(&mut self, command: Command) {
         match command {
-            Command::Join { name, role, direct, reply } => {
-                if self.lobby.len() >= self.config.most_connections {
-                    // The connection may have ended while it waited.
-                    let _ = reply.send(Err("the server is full; try again later".to_owned()));
-                    return;
-                }
-                let client = self.next_client;
-                self.next_client = self.next_client.wrapping_add(1);
-                if reply.send(Ok(client)).is_err() {
-                    return;
-                }
-                self.account.clients += 1;
-                self.lobby.add(client, name, direct);
-                if role == Role::Play {
-                    let deeds = self.lobby.play(client, self.view());
-                    self.perform(&deeds);
-                }
-            }
+            Command::Join { hello, transport, ended, reply } => self.join(hello, transport, ended, reply),
             Command::Message { client, message } => self.hear(client, message),
             Command::Expel { client, reason } => self.expel(client, reason),
-            Command::Left { client } => {
-                let deeds = self.lobby.remove(client, self.view());
-                self.perform(&deeds);
-            }
+            Command::Left { client } => self.forget(client),
+            // `run` ends at it.
+            Command::Stop => {}
+        }
+    }
+
+    fn join(
+        &mut self,
+        hello: Hello,
+        mut transport: Box<dyn Outgoing>,
+        ended: oneshot::Sender<String>,
+        reply: oneshot::Sender<Option<u32>>,
+    ) {
+        if self.lobby.len() >= self.config.most_connections {
+            let refusal = crate::connection::refusal("the server is full; try again later".to_owned());
+            // One attempt: a new socket has room for a line. The connection may have ended while it waited.
+            let _ = transport.try_write(&[std::io::IoSlice::new(&refusal)]);
+            let _ = reply.send(None);
+            return;
+        }
+        let client = self.next_client;
+        self.next_client = self.next_client.wrapping_add(1);
+        if reply.send(Some(client)).is_err() {
+            return;
+        }
+        self.account.clients += 1;
+        let Hello { name, role, stream } = hello;
+        self.streams.follow(stream, &self.games);
+        self.followers.insert(client, Follower { stream, next_full: 0 });
+        self.order(Order::Add { client, transport, stream, greeting: self.welcome.clone(), ended });
+        self.lobby.add(client, name);
+        if role == Role::Play {
+            let deeds = self.lobby.play(client, self.view());
+            self.perform(&deeds);
         }
     }
 
     /// A client said something.
     fn hear(&mut self, client: u32, message: ClientMessage) {
-        let Some(state) = self.lobby.state(client) else { return };
-        if !is_legal(state, &message) {
-            self.expel(client, format!("{message:?} is not for a client that is {state:?}"));
-            return;
+        let Some((state, had_place)) = self.lobby.state(client) else { return };
+        if !is_legal(self.config.mode, state, had_place, &message) {
+            return self.expel(client, format!("{message:?} is not for a client that is {state:?}"));
         }
         match message {
             ClientMessage::Act { tick, action } => {
-                if let SessionState::Seated(seat) = state {
-                    self.act(seat, tick, action);
+                if let SessionState::Seated(place) = state {
+                    self.account.controls += u64::from(self.controls.act(self.now(), place, tick, action));
                 }
             }
             ClientMessage::Play => {
@@ -223,157 +225,273 @@ impl Room {
                 let deeds = self.lobby.leave(client, self.view());
                 self.perform(&deeds);
             }
-            ClientMessage::Ping { nonce } => {
-                self.lobby.tell(client, &ServerMessage::Pong { nonce, tick: self.game.tick() });
-            }
+            // Connections answer themselves.
+            ClientMessage::Ping { .. } => {}
+            ClientMessage::Stream(stream) => self.switch(client, stream),
+            ClientMessage::Differs { tick, digest } => self.hear_difference(client, tick, digest),
+            ClientMessage::Vote { action } => self.hear_vote(client, state, action),
         }
     }
 
+    fn switch(&mut self, client: u32, stream: Stream) {
+        let Some(follower) = self.followers.get_mut(&client) else { return };
+        let before = std::mem::replace(&mut follower.stream, stream);
+        self.streams.follow(stream, &self.games);
+        self.order(Order::Switch { client, stream });
+        self.streams.unfollow(before);
+    }
+
+    /// A client's copy is not what the game is, which must never be, or it missed something. It gets a full snapshot.
+    fn hear_difference(&mut self, client: u32, tick: u64, theirs: u64) {
+        self.account.differing += 1;
+        let now = self.now();
+        let pause = self.ticks(REQUEST_SECONDS);
+        let Some(follower) = self.followers.get_mut(&client) else { return };
+        if now < follower.next_full {
+            return;
+        }
+        follower.next_full = now + pause;
+        let stream = follower.stream;
+        match self.streams.digest_at(tick) {
+            Some(ours) if theirs != 0 => {
+                tracing::warn!(client, "differs at tick {tick}: {theirs:016x} there, {ours:016x} here");
+            }
+            _ => tracing::info!(client, "asks for a full snapshot at tick {tick}"),
+        }
+        self.order(Order::Switch { client, stream });
+    }
+
     fn expel(&mut self, client: u32, reason: String) {
+        if self.lobby.state(client).is_none() {
+            return;
+        }
         tracing::warn!(client, "expelled: {reason}");
         self.account.illegal += 1;
-        self.lobby.tell(client, &ServerMessage::Bye { reason });
-        // With its sender of direct frames gone, its connection ends once the goodbye is written.
+        self.tell(client, &ServerMessage::Bye { reason });
+        self.forget(client);
+    }
+
+    /// A client's session is over.
+    fn forget(&mut self, client: u32) {
+        if let Some(follower) = self.followers.remove(&client) {
+            self.order(Order::Remove { client });
+            self.streams.unfollow(follower.stream);
+        }
+        self.votes.withdraw(client);
         let deeds = self.lobby.remove(client, self.view());
         self.perform(&deeds);
     }
 
-    /// A player's control: at the tick it is stamped with if that is near enough ahead, else as soon as possible. Two
-    /// controls of one part that come late together keep their distance, up to a tap's: else a late tap would be none.
-    /// Between two nudges is always a slap's time, and those that would wait for too long are dropped: else a flood of
-    /// them, all in one tick, would hurl the table.
-    fn act(&mut self, seat: u8, asked: u64, action: Action) {
-        let now = self.game.tick();
-        let latest = now + (MOST_LEAD / self.game.table().scene.tick_seconds) as u64;
-        let of_seat = self.pending.iter().filter(|input| input.seat == seat).count();
-        if of_seat >= MOST_PENDING {
-            return;
-        }
-        let part = match action {
-            Action::Flipper { right, .. } => usize::from(right),
-            Action::Nudge(_) => PARTS - 1,
-            _ => PARTS - 2,
-        };
-        let last = &mut self.stamps[usize::from(seat)][part];
-        let is_nudge = matches!(action, Action::Nudge(_));
-        let distance = match asked.saturating_sub(last.asked) {
-            _ if is_nudge => (NUDGE_SECONDS / self.game.table().scene.tick_seconds) as u64,
-            apart => apart.min(TAP_TICKS),
-        };
-        let tick = asked.clamp(now, latest).max(last.acts + distance);
-        if is_nudge && tick > latest {
-            return;
-        }
-        let tick = tick.min(latest);
-        *last = Stamp { asked, acts: tick };
-        self.account.controls += 1;
-        self.pending.push(Input { tick, seat, action });
-    }
-
     /// What the lobby decided, as inputs of the coming tick.
     fn perform(&mut self, deeds: &[Deed]) {
-        let tick = self.game.tick();
-        for &(seat, action) in deeds {
-            // Whoever leaves takes waiting controls along.
-            if action == Action::Stand {
-                self.pending.retain(|input| input.seat != seat || !input.action.is_control());
-            }
-            self.pending.push(Input { tick, seat, action });
+        for &(place, action) in deeds {
+            self.controls.perform(self.now(), place, action);
         }
+    }
+
+    fn now(&self) -> u64 {
+        self.games[0].tick()
+    }
+
+    fn tick_seconds(&self) -> f64 {
+        self.config.table.scene.tick_seconds
+    }
+
+    fn ticks(&self, seconds: f64) -> u64 {
+        (seconds / self.tick_seconds()) as u64
     }
 
     fn view(&self) -> GameView {
-        let is_playing = matches!(self.game.phase(), Phase::Play { .. });
-        GameView { is_at_start: self.game.is_at_start(), is_playing }
+        let is_playing = self.is_playing();
+        // Where each has a board of their own, nobody comes into a match that is on.
+        let is_at_start = if self.games.len() > 1 { !is_playing } else { self.games[0].is_at_start() };
+        GameView { is_at_start, is_playing }
     }
 
-    /// 1. Seats the next in line where the game lets them in; after a while without a game, the bot plays.
-    fn fill_seats(&mut self) {
-        let deeds = self.lobby.fill_seats(self.view());
+    fn is_playing(&self) -> bool {
+        self.games.iter().any(|game| matches!(game.phase(), Phase::Play { .. }))
+    }
+
+    /// 1. Seats the next in line where the game lets them in; begins the next game when somebody new came up for it, or
+    ///    somebody waits for one; after a while without a game, the bot plays.
+    fn fill_places(&mut self) {
+        let deeds = self.lobby.fill_places(self.view());
         self.perform(&deeds);
-        if matches!(self.game.phase(), Phase::Play { .. }) {
-            self.idle_ticks = 0;
+        if self.is_playing() {
+            (self.idle_ticks, self.next_game_in) = (0, 0);
             return;
         }
         self.idle_ticks += 1;
-        let patience = (BOT_PATIENCE / self.game.table().scene.tick_seconds) as u64;
-        if !self.config.attract || self.lobby.has_people() || self.idle_ticks < patience {
-            return;
-        }
-        let deeds = if self.lobby.has_bot() { vec![(0, Action::Start)] } else { self.lobby.seat_bot() };
-        if !deeds.is_empty() {
-            self.bot = Bot::new(0, self.config.seed.wrapping_add(self.account.games));
+        let waits_long = self.lobby.has_line() && self.idle_ticks > self.ticks(self.config.idle_time.as_secs_f64());
+        if self.next_game_in == 1 || waits_long {
+            let deeds = self.lobby.start_for_all();
+            self.perform(&deeds);
             self.idle_ticks = 0;
         }
-        self.perform(&deeds);
+        self.next_game_in = self.next_game_in.saturating_sub(1);
+        if self.config.attract && !self.lobby.has_people() && self.idle_ticks >= self.ticks(BOT_PATIENCE) {
+            let mut deeds = self.lobby.attract();
+            if deeds.is_empty() {
+                deeds = self.lobby.start_for_all();
+            }
+            self.idle_ticks = 0;
+            self.perform(&deeds);
+        }
     }
 
-    /// 4. Counts, logs and keeps what happened in the tick.
+    /// 1. Whoever has the turn and does nothing for too long loses it.
+    fn hurry_idlers(&mut self) {
+        let most = self.ticks(self.config.idle_time.as_secs_f64());
+        for board in 0..self.games.len() {
+            let Phase::Play { seat, serve_in: 0, .. } = self.games[board].phase() else { continue };
+            let place = if self.games.len() > 1 { board as u8 } else { seat };
+            if !matches!(self.lobby.sitter(place), Some(Sitter::Client(_))) {
+                continue;
+            }
+            if self.controls.is_idle(board, &self.games[board], place, most) {
+                tracing::info!("{} does nothing and loses the turn", self.lobby.name_of(place));
+                self.account.forfeited += 1;
+                self.controls.perform(self.now(), place, Action::Forfeit);
+            }
+        }
+    }
+
+    fn hear_vote(&mut self, client: u32, state: SessionState, action: u8) {
+        let is_action = usize::from(action) < self.crowd_actions();
+        if is_action && !matches!(state, SessionState::Seated(_)) && self.is_playing() {
+            let closes = self.now() + self.ticks(self.config.vote_time.as_secs_f64());
+            self.votes.cast(client, action, closes);
+        }
+    }
+
+    /// 2. When the time to vote is up, the house does what most want.
+    fn count_votes(&mut self) {
+        let (tick, actions) = (self.now(), self.crowd_actions());
+        let game = &self.games[0];
+        if let Some(_action) = self.votes.count(tick, actions, |_action| game.tick() > 0) {
+            let input = Input { tick, seat: HOUSE, action: Action::Forfeit };
+            self.controls.push(BoardInput { board: 0, input });
+        }
+    }
+
+    fn crowd_actions(&self) -> usize {
+        0
+    }
+
+    /// 4. Counts and logs what happened in the tick.
     fn note_events(&mut self) {
-        self.count_strokes();
-        for place in 0..self.game.events().len() {
-            let event = self.game.events()[place];
-            self.note_event(event.kind);
-            if self.events.len() < MOST_EVENTS {
-                self.events.push(event);
+        self.account.count_strokes(&self.games);
+        for board in 0..self.games.len() {
+            for place in 0..self.games[board].events().len() {
+                let event = self.games[board].events()[place];
+                self.note_event(board, event.kind);
+                self.streams.note_event(BoardEvent { board: board as u8, event });
             }
         }
     }
 
-    /// A stroke is one when the flipper comes near the upper stop, and over when it is half-way down again.
-    fn count_strokes(&mut self) {
-        let flippers = self.game.world().state().flippers.iter().zip(&self.game.table().scene.flippers);
-        for (place, (flipper, spec)) in flippers.enumerate() {
-            let bit = 1_u64 << (place % 64);
-            if flipper.swing >= 0.95 * spec.stroke && self.raised & bit == 0 {
-                self.raised |= bit;
-                self.account.strokes[usize::from(spec.right)] += 1;
-            } else if flipper.swing < 0.5 * spec.stroke {
-                self.raised &= !bit;
-            }
-        }
-    }
-
-    fn note_event(&mut self, kind: GameEventKind) {
-        let points = |seat: u8| self.game.seats()[usize::from(seat)].score.points;
+    fn note_event(&mut self, board: usize, kind: GameEventKind) {
+        let game = &self.games[board];
+        let points = |seat: u8| game.seats()[usize::from(seat)].score.points;
+        let place = |seat: u8| if self.games.len() > 1 { board as u8 } else { seat };
         match kind {
             GameEventKind::Started => self.account.games += 1,
             GameEventKind::Served { .. } => self.account.balls += 1,
             GameEventKind::Rescued { by: Rescue::Kickers } => {
-                tracing::warn!("tick {}: a ball is stuck, and all kickers are fired", self.game.tick());
+                tracing::warn!("tick {}: a ball is stuck, and all kickers are fired", game.tick());
             }
             GameEventKind::Rescued { by: Rescue::Relaunch } => {
                 self.account.rescued += 1;
-                tracing::warn!("tick {}: a ball was stuck and is served again", self.game.tick());
+                tracing::warn!("tick {}: a ball was stuck and is served again", game.tick());
             }
-            GameEventKind::Tilted { seat } => tracing::info!("{} tilts the game", self.lobby.name_of(seat)),
+            GameEventKind::Tilted { seat } => tracing::info!("{} tilts the game", self.lobby.name_of(place(seat))),
             GameEventKind::Lost { seat } => {
-                tracing::info!("{} lost a ball at {} points", self.lobby.name_of(seat), points(seat));
-            }
-            // A game that ends because another one begins in the same tick was nobody's: the bot made room.
-            GameEventKind::Over if matches!(self.game.phase(), Phase::Over) => {
-                for seat in (0..SEATS as u8).filter(|&seat| self.game.seats()[usize::from(seat)].playing) {
-                    tracing::info!("game over: {} has {} points", self.lobby.name_of(seat), points(seat));
-                }
+                tracing::info!("{} lost a ball at {} points", self.lobby.name_of(place(seat)), points(seat));
             }
             _ => {}
         }
     }
 
-    fn is_snapshot_due(&self) -> bool {
-        let per_second = 1.0 / self.game.table().scene.tick_seconds;
-        let number = |tick: u64| (tick as f64 * f64::from(SNAPSHOT_HZ) / per_second) as u64;
-        let tick = self.game.tick();
-        number(tick) != number(tick - 1)
+    /// 4. After a game: who stays, who makes room.
+    fn note_end_of_game(&mut self) {
+        let is_playing = self.is_playing();
+        if std::mem::replace(&mut self.was_playing, is_playing) && !is_playing {
+            let mut scores = Vec::new();
+            for (board, game) in (0_u8..).zip(&self.games) {
+                for (seat, seated) in (0_u8..).zip(game.seats()) {
+                    // A game that ended because everybody left was nobody's.
+                    if seated.playing && matches!(game.phase(), Phase::Over) {
+                        let place = if self.games.len() > 1 { board } else { seat };
+                        tracing::info!("game over: {} has {} points", self.lobby.name_of(place), seated.score.points);
+                        scores.push((place, seated.score.points));
+                    }
+                }
+            }
+            self.votes.clear();
+            if scores.is_empty() {
+                return;
+            }
+            let had_line = self.lobby.has_line();
+            let deeds = self.lobby.make_room(&scores);
+            self.perform(&deeds);
+            self.next_game_in = if had_line { self.ticks(NEXT_GAME_PAUSE) } else { 0 };
+        }
     }
 
-    fn send_snapshot(&mut self) {
-        let snapshot = Snapshot { state: self.game.state(), events: std::mem::take(&mut self.events) };
-        let frame = frame_of(&ServerMessage::Snapshot(Box::new(snapshot)));
-        self.account.snapshots += 1;
-        self.account.snapshot_bytes += frame.len() as u64;
-        self.account.largest_snapshot = self.account.largest_snapshot.max(frame.len());
-        // Nobody may be listening; the game goes on.
-        let _ = self.frames.send(frame);
+    /// 5. Tells everybody who is there and what the crowd wants, and each what they are, when that changed.
+    fn tell_news(&mut self) {
+        let tick = self.now();
+        for (client, you) in self.lobby.take_told() {
+            let is_prompt = matches!(you, ServerMessage::You { place: Some(_), .. });
+            self.order(Order::Hurry { client, is_prompt });
+            self.tell(client, &you);
+        }
+        let due = match self.lobby.news() {
+            News::None => false,
+            News::Count => tick >= self.next_roster + self.ticks(COUNT_PAUSE - NEWS_PAUSE),
+            News::Names => tick >= self.next_roster,
+        };
+        if due {
+            self.next_roster = tick + self.ticks(NEWS_PAUSE);
+            let roster = self.lobby.take_roster();
+            self.order(Order::News { kind: NewsKind::Roster, frame: wire(&ServerMessage::Roster(roster)) });
+        }
+        if tick >= self.next_tally
+            && let Some(tally) = self.votes.take_tally(self.crowd_actions())
+        {
+            self.next_tally = tick + self.ticks(NEWS_PAUSE);
+            self.order(Order::News { kind: NewsKind::Tally, frame: wire(&ServerMessage::Tally(tally)) });
+        }
+    }
+
+    fn tell(&self, client: u32, message: &ServerMessage) {
+        self.order(Order::Tell { client, frame: wire(message) });
+    }
+
+    fn tell_all(&self, message: &ServerMessage) {
+        for &client in self.followers.keys() {
+            self.tell(client, message);
+        }
+    }
+
+    fn order(&self, order: Order) {
+        // There may be nobody to carry it out any more: the server ends.
+        let _ = self.orders.send(order);
     }
 }
+
+/// The welcome as it goes on the wire: the same for all.
+fn welcome(config: &Config) -> Bytes {
+    let welcome = Welcome {
+        room: config.room.clone(),
+        mode: config.mode,
+        places: config.places.clamp(1, SEATS) as u8,
+        physics: PHYSICS_VERSION,
+        table_digest: config.table.digest,
+        table: config.table.source.clone(),
+    };
+    framed(&encode_greeting(&ServerMessage::Welcome(welcome))).into()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,15 +1,15 @@
 //! Which message is legal in which state of a session: one table. Anything else ends the session with a reason.
 
-use shared::protocol::ClientMessage;
+use shared::protocol::{ClientMessage, Mode};
 
 /// What a client is to the room.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum SessionState {
     /// It watches.
     Watching,
-    /// It watches and waits for a seat.
+    /// It watches and waits for a place.
     InLine,
-    /// It has that seat.
+    /// It has that place.
     Seated(u8),
 }
 
@@ -17,15 +17,22 @@ pub enum SessionState {
 ///
 /// | message | watching | in line | seated |
 /// |---|---|---|---|
-/// | `Act` with a control | no | no | yes |
+/// | `Act` with a control | only if it had a place | only if it had a place | yes |
 /// | `Act` with anything else | no | no | no |
-/// | `Play` | yes | yes | yes |
-/// | `Leave` | yes | yes | yes |
-/// | `Ping` | yes | yes | yes |
-pub fn is_legal(state: SessionState, message: &ClientMessage) -> bool {
+/// | `Vote`, where the crowd plays | yes | yes | yes, without effect |
+/// | `Vote`, elsewhere | no | no | no |
+/// | `Stream` that there is | yes | yes | yes |
+/// | `Play`, `Leave`, `Ping`, `Differs` | yes | yes | yes |
+///
+/// A client that had a place may not have heard yet that it lost it: its controls are legal and have no effect.
+pub fn is_legal(mode: Mode, state: SessionState, had_place: bool, message: &ClientMessage) -> bool {
     match message {
-        ClientMessage::Act { action, .. } => matches!(state, SessionState::Seated(_)) && action.is_control(),
-        ClientMessage::Play | ClientMessage::Leave | ClientMessage::Ping { .. } => true,
+        ClientMessage::Act { action, .. } => {
+            (had_place || matches!(state, SessionState::Seated(_))) && action.is_control()
+        }
+        ClientMessage::Vote { .. } => mode == Mode::Crowd,
+        ClientMessage::Stream(stream) => stream.check().is_ok(),
+        ClientMessage::Play | ClientMessage::Leave | ClientMessage::Ping { .. } | ClientMessage::Differs { .. } => true,
     }
 }
 
@@ -33,14 +40,36 @@ pub fn is_legal(state: SessionState, message: &ClientMessage) -> bool {
 mod tests {
     use super::*;
     use shared::game::Action;
+    use shared::protocol::{Form, Stream};
+
+    const STATES: [SessionState; 3] = [SessionState::Watching, SessionState::InLine, SessionState::Seated(0)];
+
+    fn legal(mode: Mode, had_place: bool, message: &ClientMessage) -> [bool; 3] {
+        STATES.map(|state| is_legal(mode, state, had_place, message))
+    }
 
     #[test]
-    fn only_a_seated_client_works_controls_and_nobody_seats_himself() {
+    fn the_table_holds() {
         let flip = ClientMessage::Act { tick: 0, action: Action::Flipper { right: false, pressed: true } };
         let sit = ClientMessage::Act { tick: 0, action: Action::Sit };
-        let states = [SessionState::Watching, SessionState::InLine, SessionState::Seated(0)];
-        assert_eq!(states.map(|state| is_legal(state, &flip)), [false, false, true]);
-        assert_eq!(states.map(|state| is_legal(state, &sit)), [false; 3]);
-        assert_eq!(states.map(|state| is_legal(state, &ClientMessage::Leave)), [true; 3]);
+        let vote = ClientMessage::Vote { action: 0 };
+        let stream = |hz| ClientMessage::Stream(Stream { form: Form::Inputs, hz });
+        assert_eq!(legal(Mode::Challenge, false, &flip), [false, false, true]);
+        assert_eq!(legal(Mode::Challenge, true, &flip), [true; 3]);
+        assert_eq!(legal(Mode::Challenge, true, &sit), [false; 3]);
+        assert_eq!(legal(Mode::Crowd, false, &vote), [true; 3]);
+        assert_eq!(legal(Mode::Challenge, false, &vote), [false; 3]);
+        assert_eq!(legal(Mode::HeadToHead, false, &vote), [false; 3]);
+        assert_eq!(legal(Mode::Challenge, false, &stream(60)), [true; 3]);
+        assert_eq!(legal(Mode::Challenge, false, &stream(61)), [false; 3]);
+        let others = [
+            ClientMessage::Play,
+            ClientMessage::Leave,
+            ClientMessage::Ping { nonce: 1 },
+            ClientMessage::Differs { tick: 1, digest: 1 },
+        ];
+        for message in others {
+            assert_eq!(legal(Mode::Crowd, false, &message), [true; 3]);
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::game::{Action, SEATS};
 use crate::math::bounded;
 
 /// Longest name of a player, characters.
-const MOST_NAME: usize = 24;
+pub const MOST_NAME: usize = 24;
 /// Most actions that a table can give the crowd.
 pub const MOST_CROWD_ACTIONS: usize = 16;
 /// Most names of a line that a roster tells.

@@ -1,12 +1,12 @@
 //! Who is let in, and in which words others are not.
 
-use shared::protocol::{Hello, Preamble, Role, encode_greeting};
+use shared::protocol::{Hello, Preamble, Role, Stream, encode_greeting};
 use std::time::Duration;
 
 use crate::harness::{Client, Server, Wire, quiet};
 
 fn hello(name: &str) -> Vec<u8> {
-    encode_greeting(&Hello { name: name.to_owned(), role: Role::Watch })
+    encode_greeting(&Hello { name: name.to_owned(), role: Role::Watch, stream: Stream::PLAYER })
 }
 
 #[tokio::test]
@@ -14,8 +14,8 @@ async fn a_welcome_brings_the_table_and_then_the_game() {
     let server = Server::start(quiet()).await;
     let mut client = Client::watch(&server, "Ann").await;
     assert_eq!(client.game.table().name, "Classic");
-    let first = client.snapshot().await.state.world.tick;
-    let second = client.snapshot().await.state.world.tick;
+    let first = client.snapshot().await.tick;
+    let second = client.snapshot().await.tick;
     assert!((16..=17).contains(&(second - first)), "60 snapshots a second, not one in {} ms", second - first);
     assert_eq!(server.stop().await.clients, 1);
 }

@@ -4,19 +4,17 @@ use std::net::SocketAddr;
 use std::sync::Arc;
 use std::time::Duration;
 
-use bytes::{Bytes, BytesMut};
-use futures_util::{SinkExt, StreamExt};
-use shared::game::{Action, Game};
+use shared::game::{Action, Game, GameEvent};
 use shared::protocol::{
-    ClientMessage, Hello, MOST_FROM_SERVER, Role, Roster, ServerMessage, Snapshot, decode, decode_greeting, encode,
-    encode_greeting,
+    ClientMessage, Deframer, Follower, Hello, MOST_FROM_SERVER, Role, Roster, ServerMessage, Stream, Tally, Welcome,
+    decode_from_server, decode_greeting, encode, encode_greeting, framed,
 };
 use shared::table::Table;
 use starball_server::{Account, Config};
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::{TcpListener, TcpSocket, TcpStream};
 use tokio::sync::oneshot;
 use tokio::task::JoinHandle;
-use tokio_util::codec::{Framed, LengthDelimitedCodec};
 
 /// Long enough for a loaded machine; nothing here waits for it unless something is broken.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -37,8 +35,10 @@ pub(crate) fn classic() -> Arc<Table> {
 pub(crate) fn quiet() -> Config {
     let mut config = Config::new(classic());
     config.attract = false;
-    // These clients say nothing while they wait.
+    // These clients say nothing while they wait, and some say a great deal.
     config.silent_time = Duration::from_secs(120);
+    config.idle_time = Duration::from_secs(120);
+    config.most_messages = 1_000_000;
     config
 }
 
@@ -62,11 +62,19 @@ impl Server {
 }
 
 /// A connection that has not said anything yet.
-pub(crate) struct Wire(pub(crate) Framed<TcpStream, LengthDelimitedCodec>);
+pub(crate) struct Wire {
+    pub(crate) stream: TcpStream,
+    deframer: Deframer,
+}
 
 impl Wire {
     pub(crate) async fn open(server: &Server) -> Self {
-        Self::over(TcpStream::connect(server.address).await.expect("connects"))
+        Self::to(server.address).await
+    }
+
+    /// The same, to any address.
+    pub(crate) async fn to(address: SocketAddr) -> Self {
+        Self::over(TcpStream::connect(address).await.expect("connects"))
     }
 
     /// The same, with hardly any room for what is not read.
@@ -78,21 +86,25 @@ impl Wire {
 
     fn over(stream: TcpStream) -> Self {
         stream.set_nodelay(true).expect("a TCP option");
-        let codec = LengthDelimitedCodec::builder()
-            .length_field_type::<u32>()
-            .little_endian()
-            .max_frame_length(MOST_FROM_SERVER)
-            .new_codec();
-        Self(Framed::new(stream, codec))
+        Self { stream, deframer: Deframer::new(MOST_FROM_SERVER) }
     }
 
     pub(crate) async fn send(&mut self, frame: Vec<u8>) {
-        self.0.send(Bytes::from(frame)).await.expect("the server listens");
+        self.stream.write_all(&framed(&frame)).await.expect("the server listens");
     }
 
     /// The next frame, or `None` once the server has closed the connection.
-    pub(crate) async fn receive(&mut self) -> Option<BytesMut> {
-        tokio::time::timeout(PATIENCE, self.0.next()).await.expect("a frame in time")?.ok()
+    pub(crate) async fn receive(&mut self) -> Option<Vec<u8>> {
+        loop {
+            if let Some(frame) = self.deframer.next_frame().expect("a server's frames are in order") {
+                return Some(frame.to_vec());
+            }
+            let read = tokio::time::timeout(PATIENCE, self.stream.read_buf(self.deframer.space())).await;
+            // A server that hangs up on what it has not read resets the connection.
+            if read.expect("a frame in time").unwrap_or(0) == 0 {
+                return None;
+            }
+        }
     }
 
     /// The reason of the refusal that must come next.
@@ -108,36 +120,53 @@ impl Wire {
     pub(crate) async fn goodbye(&mut self) -> String {
         loop {
             let frame = self.receive().await.expect("a goodbye before the end");
-            if let Ok(ServerMessage::Bye { reason }) = decode(&frame) {
+            if let Ok(ServerMessage::Bye { reason }) = decode_from_server(&frame) {
                 return reason;
             }
         }
     }
 }
 
-/// A client that was let in.
+/// What one frame of the stream brought.
+pub(crate) struct Snapshot {
+    /// The tick that the client's copy is at.
+    pub(crate) tick: u64,
+    /// What happened on the first board since the frame before.
+    pub(crate) events: Vec<GameEvent>,
+}
+
+/// A client that was let in, and follows its stream.
 pub(crate) struct Client {
     pub(crate) wire: Wire,
-    /// A copy of the game, restored from the snapshots that came.
+    pub(crate) welcome: Welcome,
+    pub(crate) follower: Follower,
+    /// The game on the first board, as it was confirmed.
     pub(crate) game: Game,
-    /// Its seat, by the last `You`.
-    pub(crate) seat: Option<u8>,
+    /// Its place, by the last `You`.
+    pub(crate) place: Option<u8>,
     /// Its place in the line, by the last `You`.
     pub(crate) line: Option<u16>,
     pub(crate) roster: Roster,
+    pub(crate) tally: Tally,
+    /// Times that its copy was not what the server said, or something was missing.
+    pub(crate) mismatches: u32,
 }
 
 impl Client {
     pub(crate) async fn play(server: &Server, name: &str) -> Self {
-        Self::join(Wire::open(server).await, name, Role::Play).await
+        Self::join(Wire::open(server).await, name, Role::Play, Stream::PLAYER).await
     }
 
     pub(crate) async fn watch(server: &Server, name: &str) -> Self {
-        Self::join(Wire::open(server).await, name, Role::Watch).await
+        Self::watch_stream(server, name, Stream::PLAYER).await
     }
 
-    pub(crate) async fn join(mut wire: Wire, name: &str, role: Role) -> Self {
-        wire.send(encode_greeting(&Hello { name: name.to_owned(), role })).await;
+    pub(crate) async fn watch_stream(server: &Server, name: &str, stream: Stream) -> Self {
+        Self::join(Wire::open(server).await, name, Role::Watch, stream).await
+    }
+
+    pub(crate) async fn join(mut wire: Wire, name: &str, role: Role, stream: Stream) -> Self {
+        wire.send(encode_greeting(&Hello { name: name.to_owned(), role, stream })).await;
         let frame = wire.receive().await.expect("a welcome");
         let welcome = match decode_greeting(&frame) {
             Ok(ServerMessage::Welcome(welcome)) => welcome,
@@ -145,8 +174,18 @@ impl Client {
         };
         let table = Table::parse("received", &welcome.table).expect("the server's table is valid");
         assert_eq!(table.digest, welcome.table_digest);
-        let game = Game::new(Arc::new(table));
-        Self { wire, game, seat: None, line: None, roster: Roster::default() }
+        let table = Arc::new(table);
+        Self {
+            wire,
+            welcome,
+            follower: Follower::new(Arc::clone(&table)),
+            game: Game::new(table),
+            place: None,
+            line: None,
+            roster: Roster::default(),
+            tally: Tally::default(),
+            mismatches: 0,
+        }
     }
 
     pub(crate) async fn say(&mut self, message: ClientMessage) {
@@ -158,17 +197,45 @@ impl Client {
         self.say(ClientMessage::Act { tick: 0, action }).await;
     }
 
-    /// The next message; its content is taken in.
-    pub(crate) async fn hear(&mut self) -> ServerMessage {
+    /// The next message; its content is taken in. What happened on the first board goes to `events`.
+    async fn hear_with(&mut self, events: &mut Vec<GameEvent>) -> ServerMessage {
         let frame = self.wire.receive().await.expect("the connection stays open");
-        let message: ServerMessage = decode(&frame).expect("a message");
+        let message = decode_from_server(&frame).expect("a message");
+        let mut heard = Ok(());
         match &message {
-            ServerMessage::Snapshot(snapshot) => self.game.restore(snapshot.state.clone()).expect("a valid state"),
-            ServerMessage::You { seat, line } => (self.seat, self.line) = (*seat, *line),
+            ServerMessage::Full(full) => {
+                self.follower.hear_full(full).expect("a valid state");
+            }
+            ServerMessage::Change(change) => {
+                heard = self.follower.hear_change(change).expect("a change of what there is").map(drop);
+                events.extend(change.events.iter().filter(|event| event.board == 0).map(|event| event.event));
+            }
+            ServerMessage::Inputs(inputs) => {
+                heard = self.follower.hear_inputs(inputs).expect("inputs of games that there are").map(drop);
+            }
+            ServerMessage::You { place, line, .. } => (self.place, self.line) = (*place, *line),
             ServerMessage::Roster(roster) => self.roster = roster.clone(),
+            ServerMessage::Tally(tally) => self.tally = tally.clone(),
             _ => {}
         }
+        let stepped = self.follower.advance(u64::MAX, |board, event| {
+            if board == 0 {
+                events.push(*event);
+            }
+        });
+        if let Err(mismatch) = heard.and(stepped) {
+            self.mismatches += 1;
+            self.say(ClientMessage::Differs { tick: mismatch.tick, digest: mismatch.ours }).await;
+        }
+        if let Some(game) = self.follower.games().first() {
+            self.game.clone_from(game);
+        }
         message
+    }
+
+    /// The next message; its content is taken in.
+    pub(crate) async fn hear(&mut self) -> ServerMessage {
+        self.hear_with(&mut Vec::new()).await
     }
 
     /// Takes in messages until `is_so` holds.
@@ -181,11 +248,13 @@ impl Client {
         assert!(tokio::time::timeout(PATIENCE, wait).await.is_ok(), "waited in vain until {what}");
     }
 
-    /// The next snapshot.
+    /// The next frame of the stream.
     pub(crate) async fn snapshot(&mut self) -> Snapshot {
+        let mut events = Vec::new();
         loop {
-            if let ServerMessage::Snapshot(snapshot) = self.hear().await {
-                return *snapshot;
+            let message = self.hear_with(&mut events).await;
+            if matches!(message, ServerMessage::Full(_) | ServerMessage::Change(_) | ServerMessage::Inputs(_)) {
+                return Snapshot { tick: self.follower.tick(), events };
             }
         }
     }

@@ -3,14 +3,14 @@
 use std::time::{Duration, Instant};
 
 use shared::game::{Action, Phase};
-use shared::protocol::{ClientMessage, Hello, Role, ServerMessage, encode, encode_greeting};
+use shared::protocol::{ClientMessage, Hello, Role, ServerMessage, Stream, encode, encode_greeting};
 use tokio::io::AsyncWriteExt;
 
 use crate::harness::{Client, Server, Wire, quiet};
 
 async fn let_in(server: &Server) -> Wire {
     let mut wire = Wire::open(server).await;
-    wire.send(encode_greeting(&Hello { name: "Eve".to_owned(), role: Role::Watch })).await;
+    wire.send(encode_greeting(&Hello { name: "Eve".to_owned(), role: Role::Watch, stream: Stream::PLAYER })).await;
     wire.receive().await.expect("a welcome");
     wire
 }
@@ -33,8 +33,8 @@ async fn a_frame_of_nonsense_ends_the_session_with_a_reason() {
 async fn a_frame_larger_than_allowed_is_refused_unread() {
     let server = Server::start(quiet()).await;
     let mut eve = let_in(&server).await;
-    // Only the length: four gigabytes. The server must not wait for them, let alone make room.
-    eve.0.get_mut().write_all(&u32::MAX.to_le_bytes()).await.expect("sent");
+    // Only the length: two megabytes. The server must not wait for them, let alone make room.
+    eve.stream.write_all(&[0xff, 0xff, 0x7f]).await.expect("sent");
     assert!(eve.goodbye().await.contains("frame size too big"));
     server.stop().await;
 }
@@ -48,7 +48,7 @@ async fn whoever_has_no_seat_works_no_controls() {
     assert!(eve.goodbye().await.contains("not for a client"));
 
     let mut ann = Client::play(&server, "Ann").await;
-    ann.until("she is seated", |ann| ann.seat == Some(0)).await;
+    ann.until("she is seated", |ann| ann.place == Some(0)).await;
     ann.act(Action::Sit).await;
     assert!(ann.wire.goodbye().await.contains("not for a client"), "nor does a player seat anybody");
     server.stop().await;
@@ -59,8 +59,8 @@ async fn a_flood_of_controls_is_bounded_and_hurts_nobody() {
     let server = Server::start(quiet()).await;
     let mut ann = Client::watch(&server, "Ann").await;
     let mut eve = Client::play(&server, "Eve").await;
-    eve.until("she is seated", |eve| eve.seat == Some(0)).await;
-    let (began, before) = (Instant::now(), ann.snapshot().await.state.world.tick);
+    eve.until("she is seated", |eve| eve.place == Some(0)).await;
+    let (began, before) = (Instant::now(), ann.snapshot().await.tick);
     for n in 0..20_000_u64 {
         let action = Action::Flipper { right: n % 3 == 0, pressed: n % 2 == 0 };
         eve.say(ClientMessage::Act { tick: u64::MAX - n, action }).await;
@@ -88,7 +88,7 @@ async fn a_flood_of_leaves_does_not_drown_the_others() {
     let (mut rosters, mut snapshots) = (0, 0);
     while snapshots < 60 {
         match ann.hear().await {
-            ServerMessage::Snapshot(_) => snapshots += 1,
+            ServerMessage::Change(_) => snapshots += 1,
             ServerMessage::Roster(_) => rosters += 1,
             _ => {}
         }
@@ -104,10 +104,10 @@ async fn a_player_who_says_nothing_loses_the_seat() {
     let server = Server::start(config).await;
     // Eve's machine sleeps with the connection open; Ann's pings, as every client does.
     let mut eve = Client::play(&server, "Eve").await;
-    eve.until("she is seated", |eve| eve.seat == Some(0)).await;
+    eve.until("she is seated", |eve| eve.place == Some(0)).await;
     let mut ann = Client::watch(&server, "Ann").await;
-    ann.until("Eve is there", |ann| ann.roster.seats[0].as_deref() == Some("Eve")).await;
-    while ann.roster.seats[0].is_some() {
+    ann.until("Eve is there", |ann| ann.roster.places[0].as_deref() == Some("Eve")).await;
+    while ann.roster.places[0].is_some() {
         ann.say(ClientMessage::Ping { nonce: 0 }).await;
         ann.snapshot().await;
     }
@@ -121,7 +121,7 @@ async fn a_connection_that_ends_in_mid_frame_is_forgotten() {
     let mut ann = Client::watch(&server, "Ann").await;
     let mut eve = let_in(&server).await;
     ann.until("both are there", |ann| ann.roster.spectators == 2).await;
-    eve.0.get_mut().write_all(&[10, 0, 0, 0, 1, 2]).await.expect("sent");
+    eve.stream.write_all(&[10, 1, 2]).await.expect("sent");
     drop(eve);
     ann.until("Eve is gone", |ann| ann.roster.spectators == 1).await;
     server.stop().await;

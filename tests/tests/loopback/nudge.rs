@@ -83,7 +83,8 @@ async fn a_fit_of_nudges_tilts_the_game_for_both_and_its_replay_too() {
     // Her flippers are dead.
     ann.act(Action::Flipper { right: false, pressed: true }).await;
     for _ in 0..10 {
-        assert_eq!(bob.snapshot().await.state.world.flippers[0].swing, 0.0);
+        bob.snapshot().await;
+        assert_eq!(bob.game.world().state().flippers[0].swing, 0.0);
     }
 
     // What he saw is the whole game: played again it comes to the same state, and so does the replay of that.

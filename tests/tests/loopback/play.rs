@@ -13,7 +13,7 @@ fn ball_is_served(client: &Client) -> bool {
 async fn a_player_gets_the_first_seat_and_a_ball_at_once() {
     let server = Server::start(quiet()).await;
     let mut ann = Client::play(&server, "Ann").await;
-    ann.until("she is seated", |ann| ann.seat == Some(0)).await;
+    ann.until("she is seated", |ann| ann.place == Some(0)).await;
     ann.until("the ball is served", ball_is_served).await;
     assert_eq!(ann.game.world().state().balls.len(), 1);
     let account = server.stop().await;
@@ -56,11 +56,11 @@ async fn inputs_act_in_the_tick_they_are_stamped_with() {
     ann.until("the ball is served", ball_is_served).await;
     // An own copy of the game, stepped from this snapshot with the same input at the same tick, must stay equal.
     let start = ann.snapshot().await;
-    let press = start.state.world.tick + 240;
+    let press = start.tick + 240;
     let action = Action::Flipper { right: true, pressed: true };
     ann.say(ClientMessage::Act { tick: press, action }).await;
     let mut copy = ann.game.clone();
-    copy.restore(start.state).expect("a valid state");
+    copy.restore(ann.game.state()).expect("a valid state");
     let mut compared = 0;
     while copy.tick() < press + 100 {
         copy.step(&[Input { tick: press, seat: 0, action }]);

@@ -1,0 +1,185 @@
+//! One stream's last frames, and who follows it.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::time::Duration;
+
+use bytes::Bytes;
+use shared::protocol::Stream;
+use tokio::time::Instant;
+
+use super::NewsKind;
+use super::subscriber::{Served, Subscriber};
+
+/// Seconds for which frames are kept: who lags by more begins anew from a full snapshot.
+const KEPT_SECONDS: usize = 2;
+/// News that may be kept besides.
+const KEPT_NEWS: usize = 16;
+/// The place of those who are served at once.
+const PROMPT: usize = 0;
+
+/// Whether who is in that slot is served at once.
+pub(super) fn is_prompt(slot: usize) -> bool {
+    slot == PROMPT
+}
+
+/// The last frames of a stream.
+pub(super) struct Ring {
+    frames: VecDeque<Bytes>,
+    /// How many came before the first that is kept.
+    first: u64,
+    most: usize,
+    /// What the newest frame leads to.
+    full: Bytes,
+}
+
+impl Ring {
+    /// The number of the next frame.
+    pub(super) fn end(&self) -> u64 {
+        self.first + self.frames.len() as u64
+    }
+
+    /// The frames from that number on; `None` if some of them are not kept any more.
+    pub(super) fn since(&self, number: u64) -> Option<impl Iterator<Item = &Bytes>> {
+        let skip = usize::try_from(number.checked_sub(self.first)?).ok()?;
+        Some(self.frames.iter().skip(skip))
+    }
+
+    fn push(&mut self, frame: Bytes) {
+        if self.frames.len() == self.most {
+            self.frames.pop_front();
+            self.first += 1;
+        }
+        self.frames.push_back(frame);
+    }
+}
+
+/// A stream and who follows it.
+pub(super) struct Feed {
+    ring: Ring,
+    /// The first for those who are served at once, then one for each millisecond of the interval.
+    slots: Vec<Vec<Subscriber>>,
+    /// The slot for the next who comes: they fill up evenly.
+    next_slot: usize,
+}
+
+impl Feed {
+    pub(super) fn new(stream: Stream, full: Bytes) -> Self {
+        let hz = usize::from(stream.hz);
+        let ring = Ring { frames: VecDeque::new(), first: 0, most: KEPT_SECONDS * hz + KEPT_NEWS, full };
+        let interval = 1000 / hz;
+        Self { ring, slots: (0..=interval).map(|_| Vec::new()).collect(), next_slot: 0 }
+    }
+
+    /// The stream begins again; whoever is still here is about to leave.
+    pub(super) fn reopen(&mut self, full: Bytes) {
+        self.ring.first = self.ring.end();
+        self.ring.frames.clear();
+        self.ring.full = full;
+    }
+
+    pub(super) fn push(&mut self, frame: Bytes, full: Bytes) {
+        self.ring.push(frame);
+        self.ring.full = full;
+    }
+
+    pub(super) fn push_news(&mut self, frame: Bytes) {
+        self.ring.push(frame);
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.slots.iter().all(Vec::is_empty)
+    }
+
+    /// Lets a subscriber begin anew: a full snapshot and the news come next, then what follows them.
+    pub(super) fn begin(&self, subscriber: &mut Subscriber, news: &BTreeMap<NewsKind, Bytes>) {
+        begin(&self.ring, subscriber, news);
+    }
+
+    /// Takes a subscriber in, and says in which slot.
+    pub(super) fn place(&mut self, subscriber: Subscriber) -> usize {
+        let slot = if subscriber.is_prompt {
+            PROMPT
+        } else {
+            let intervals = self.slots.len() - 1;
+            self.next_slot = (self.next_slot + 1) % intervals;
+            self.next_slot + 1
+        };
+        self.slots[slot].push(subscriber);
+        slot
+    }
+
+    pub(super) fn take(&mut self, slot: usize, client: u32) -> Option<Subscriber> {
+        let subscribers = &mut self.slots[slot];
+        let place = subscribers.iter().position(|subscriber| subscriber.client == client)?;
+        Some(subscribers.swap_remove(place))
+    }
+
+    /// Serves those whose turn it is; returns who is gone.
+    pub(super) fn serve_slot(&mut self, slot: u64, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
+        let intervals = (self.slots.len() - 1) as u64;
+        self.serve(1 + (slot % intervals) as usize, news, write_time)
+    }
+
+    /// Serves those who are served at once; returns who is gone.
+    pub(super) fn serve_prompt(&mut self, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
+        self.serve(PROMPT, news, write_time)
+    }
+
+    fn serve(&mut self, slot: usize, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
+        if self.slots[slot].is_empty() {
+            return Vec::new();
+        }
+        let (ring, now) = (&self.ring, Instant::now());
+        let mut gone = Vec::new();
+        let mut place = 0;
+        while let Some(subscriber) = self.slots[slot].get_mut(place) {
+            match serve(ring, subscriber, news, now, write_time) {
+                Served::Stays => place += 1,
+                Served::Gone(reason) => {
+                    let subscriber = self.slots[slot].swap_remove(place);
+                    gone.push(subscriber.client);
+                    subscriber.drop_for(&reason);
+                }
+            }
+        }
+        gone
+    }
+
+    /// Changes a subscriber and serves it; `true` if it is gone.
+    pub(super) fn serve_one(
+        &mut self,
+        slot: usize,
+        client: u32,
+        news: &BTreeMap<NewsKind, Bytes>,
+        write_time: Duration,
+        change: impl FnOnce(&mut Subscriber),
+    ) -> bool {
+        let subscribers = &mut self.slots[slot];
+        let Some(place) = subscribers.iter().position(|subscriber| subscriber.client == client) else { return true };
+        change(&mut subscribers[place]);
+        match serve(&self.ring, &mut subscribers[place], news, Instant::now(), write_time) {
+            Served::Stays => false,
+            Served::Gone(reason) => {
+                subscribers.swap_remove(place).drop_for(&reason);
+                true
+            }
+        }
+    }
+}
+
+fn begin(ring: &Ring, subscriber: &mut Subscriber, news: &BTreeMap<NewsKind, Bytes>) {
+    subscriber.begin(ring.end(), std::iter::once(&ring.full).chain(news.values()));
+}
+
+fn serve(
+    ring: &Ring,
+    subscriber: &mut Subscriber,
+    news: &BTreeMap<NewsKind, Bytes>,
+    now: Instant,
+    write_time: Duration,
+) -> Served {
+    if subscriber.is_past(ring) {
+        begin(ring, subscriber, news);
+    }
+    subscriber.serve(ring, now, write_time)
+}

@@ -1,0 +1,133 @@
+//! Who sits where, in each mode.
+
+use super::*;
+
+const START: GameView = GameView { is_at_start: true, is_playing: false };
+const EARLY: GameView = GameView { is_at_start: true, is_playing: true };
+const LATE: GameView = GameView { is_at_start: false, is_playing: true };
+
+use Action::{Sit, Stand, Start};
+
+fn lobby_with(mode: Mode, places: usize, names: &[&str]) -> Lobby {
+    let mut lobby = Lobby::new(mode, places, true);
+    for (id, name) in (0..).zip(names) {
+        lobby.add(id, (*name).to_owned());
+    }
+    lobby
+}
+
+fn challenge(names: &[&str]) -> Lobby {
+    lobby_with(Mode::Challenge, 2, names)
+}
+
+#[test]
+fn the_first_person_sends_the_bot_away_and_starts() {
+    let mut lobby = challenge(&["Ann"]);
+    assert_eq!(lobby.attract(), [(0, Sit), (0, Start)]);
+    assert_eq!(lobby.play(0, LATE), [(0, Stand), (0, Sit), (0, Start)]);
+    assert_eq!(lobby.name_of(0), "Ann");
+    assert!(lobby.attract().is_empty());
+}
+
+#[test]
+fn a_second_person_joins_at_the_start_and_waits_later() {
+    let mut lobby = challenge(&["Ann", "Bob", "Cid"]);
+    lobby.play(0, START);
+    assert_eq!(lobby.play(1, EARLY), [(1, Sit)]);
+    assert!(lobby.play(2, EARLY).is_empty(), "both places are taken");
+    assert_eq!(lobby.state(2), Some((SessionState::InLine, false)));
+    // Bob leaves in mid-game: Cid has to wait for its end.
+    assert_eq!(lobby.leave(1, LATE), [(1, Stand)]);
+    assert_eq!(lobby.fill_places(START), [(1, Sit)]);
+    assert_eq!(lobby.name_of(1), "Cid");
+}
+
+#[test]
+fn the_next_in_line_starts_when_everybody_has_left() {
+    let mut lobby = challenge(&["Ann", "Bob"]);
+    lobby.play(0, START);
+    lobby.play(1, LATE);
+    assert_eq!(lobby.remove(0, LATE), [(0, Stand), (0, Sit), (0, Start)]);
+    assert_eq!(lobby.name_of(0), "Bob");
+}
+
+#[test]
+fn the_winner_stays_and_the_next_comes_up() {
+    let mut lobby = challenge(&["Ann", "Bob", "Cid", "Dan"]);
+    lobby.play(0, START);
+    lobby.play(1, EARLY);
+    lobby.play(2, LATE);
+    lobby.play(3, LATE);
+    assert_eq!(lobby.make_room(&[(0, 500), (1, 900)]), [(0, Stand)]);
+    assert_eq!(lobby.state(0), Some((SessionState::Watching, true)), "it had a place");
+    assert_eq!(lobby.fill_places(START), [(0, Sit)]);
+    assert_eq!(lobby.take_roster().champion, Some((1, 1)));
+    assert_eq!((lobby.name_of(0), lobby.name_of(1)), ("Cid", "Bob"));
+    assert_eq!(lobby.make_room(&[(0, 500), (1, 900)]), [(0, Stand)]);
+    assert_eq!(lobby.take_roster().champion, Some((1, 2)));
+    lobby.leave(1, START);
+    assert_eq!(lobby.take_roster().champion, None);
+}
+
+#[test]
+fn nobody_makes_room_for_nobody() {
+    let mut lobby = challenge(&["Ann", "Bob"]);
+    lobby.play(0, START);
+    lobby.play(1, EARLY);
+    assert!(lobby.make_room(&[(0, 1), (1, 2)]).is_empty());
+    assert_eq!(lobby.play(1, START), [(1, Start)]);
+}
+
+#[test]
+fn whoever_plays_alone_makes_room_for_who_waits() {
+    let mut lobby = lobby_with(Mode::Crowd, 1, &["Ann", "Bob"]);
+    assert_eq!(lobby.play(0, START), [(0, Sit), (0, Start)]);
+    assert!(lobby.play(1, EARLY).is_empty());
+    assert_eq!(lobby.make_room(&[(0, 10)]), [(0, Stand)]);
+    assert_eq!(lobby.fill_places(START), [(0, Sit), (0, Start)]);
+    assert_eq!(lobby.name_of(0), "Bob");
+}
+
+#[test]
+fn head_to_head_begins_against_the_bot_and_goes_on_between_people() {
+    let mut lobby = lobby_with(Mode::HeadToHead, 2, &["Ann", "Bob"]);
+    assert_eq!(lobby.play(0, START), [(0, Sit), (1, Sit), (0, Start), (1, Start)]);
+    assert_eq!(lobby.sitter(1), Some(Sitter::Bot));
+    assert!(lobby.play(1, LATE).is_empty(), "not in the middle of a match");
+    assert_eq!(lobby.make_room(&[(0, 5), (1, 7)]), [(0, Stand)], "the bot won");
+    assert_eq!(lobby.take_roster().champion, None, "but wears no crown");
+    assert_eq!(lobby.fill_places(START), [(1, Stand), (0, Sit), (1, Sit), (0, Start), (1, Start)]);
+    assert_eq!(lobby.name_of(0), "Bob");
+    // Ann comes back when that is over: the bot makes room.
+    assert!(lobby.play(0, LATE).is_empty());
+    assert_eq!(lobby.make_room(&[(0, 9), (1, 7)]), [(1, Stand)]);
+    assert_eq!(lobby.fill_places(START), [(1, Sit)]);
+    assert_eq!(lobby.play(0, START), [(0, Start), (1, Start)], "either of them begins");
+}
+
+/// A client in line was told its place when it came, and never again.
+#[test]
+fn who_moves_up_in_the_line_is_told() {
+    let mut lobby = challenge(&["Ann", "Bob", "Cid"]);
+    let told = |lobby: &mut Lobby, id: u32| {
+        lobby.take_told().into_iter().find(|(client, _)| *client == id).map(|(_, message)| message)
+    };
+    lobby.play(0, START);
+    lobby.play(1, LATE);
+    lobby.play(2, LATE);
+    assert_eq!(told(&mut lobby, 2), Some(ServerMessage::You { client: 2, place: None, line: Some(2) }));
+    lobby.leave(1, LATE);
+    assert_eq!(told(&mut lobby, 2), Some(ServerMessage::You { client: 2, place: None, line: Some(1) }));
+    assert_eq!(told(&mut lobby, 2), None, "nobody is told twice");
+}
+
+#[test]
+fn whoever_gives_up_a_place_in_line_is_not_seated() {
+    let mut lobby = challenge(&["Ann", "Bob"]);
+    lobby.play(0, START);
+    lobby.play(1, LATE);
+    assert!(lobby.leave(1, LATE).is_empty());
+    assert!(lobby.fill_places(START).is_empty());
+    let roster = lobby.take_roster();
+    assert_eq!((roster.spectators, roster.line.len()), (1, 0));
+}
