@@ -47,10 +47,10 @@ pub(crate) enum Order {
     Hurry { client: u32, is_prompt: bool },
     /// Something for it alone.
     Tell { client: u32, frame: Bytes },
-    /// Its session is over; what waits for it is still written.
-    Remove { client: u32 },
+    /// Its session is over; what waits for it alone is still written, then the last word.
+    Remove { client: u32, last: Bytes },
     /// All sessions are over.
-    End,
+    End { last: Bytes },
 }
 
 /// The news that are kept for who comes later: the last of each kind.
@@ -188,12 +188,12 @@ impl Broadcast {
                 }
             }
             Order::Tell { client, frame } => self.at_once(client, |subscriber| subscriber.tell(frame)),
-            Order::Remove { client } => self.at_once(client, Subscriber::end),
-            Order::End => {
+            Order::Remove { client, last } => self.at_once(client, |subscriber| subscriber.end(last)),
+            Order::End { last } => {
                 self.ends = true;
                 let clients: Vec<u32> = self.whereabouts.keys().copied().collect();
                 for client in clients {
-                    self.at_once(client, Subscriber::end);
+                    self.at_once(client, |subscriber| subscriber.end(last.clone()));
                 }
             }
         }

@@ -23,6 +23,9 @@ use crate::config::Config;
 use crate::listener::Permit;
 use crate::streams::wire;
 
+/// How long a connection that is over may still send, so that its last word arrives.
+const LINGER_TIME: Duration = Duration::from_secs(1);
+
 /// What every connection needs of the server.
 #[derive(Clone)]
 pub(crate) struct Surroundings {
@@ -63,6 +66,8 @@ pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surrou
     };
     tracing::info!(client, name, "left: {reason}");
     around.commands.send(Command::Left { client }).await;
+    // Closed with something unread, the goodbye would be lost on its way.
+    let _ = timeout(LINGER_TIME, reader.discard()).await;
     drop(permit);
 }
 
@@ -105,6 +110,14 @@ impl Reader {
                 Err(error) => return Some(Err(error.to_string())),
             }
         }
+    }
+}
+
+impl Reader {
+    /// Reads to the end of the connection, for nothing.
+    async fn discard(&mut self) {
+        let mut nothing = [0; 1024];
+        while matches!(self.read.read(&mut nothing).await, Ok(1..)) {}
     }
 }
 
@@ -162,9 +175,10 @@ async fn read_messages(reader: &mut Reader, around: &Surroundings, client: u32) 
             }
             Ok(message) => around.commands.send(Command::Message { client, message }).await,
             Err(reason) => {
-                around.commands.send(Command::Expel { client, reason }).await;
+                around.commands.send(Command::Expel { client, reason: reason.clone() }).await;
                 // Nothing behind it is heard; once the goodbye is written the broadcast ends this.
-                std::future::pending::<()>().await;
+                reader.discard().await;
+                return reason;
             }
         }
     }

@@ -132,8 +132,7 @@ impl Room {
             wake += WAKE_EVERY;
             wake = wake.max(begin.elapsed());
         }
-        self.tell_all(&ServerMessage::Bye { reason: "the server ends".to_owned() });
-        self.order(Order::End);
+        self.order(Order::End { last: goodbye("the server ends".to_owned()) });
         self.account
     }
 
@@ -168,7 +167,7 @@ impl Room {
             Command::Join { hello, transport, ended, reply } => self.join(hello, transport, ended, reply),
             Command::Message { client, message } => self.hear(client, message),
             Command::Expel { client, reason } => self.expel(client, reason),
-            Command::Left { client } => self.forget(client),
+            Command::Left { client } => self.forget(client, Bytes::new()),
             // `run` ends at it.
             Command::Stop => {}
         }
@@ -267,14 +266,13 @@ impl Room {
         }
         tracing::warn!(client, "expelled: {reason}");
         self.account.illegal += 1;
-        self.tell(client, &ServerMessage::Bye { reason });
-        self.forget(client);
+        self.forget(client, goodbye(reason));
     }
 
-    /// A client's session is over.
-    fn forget(&mut self, client: u32) {
+    /// A client's session is over, with that as the last word.
+    fn forget(&mut self, client: u32, last: Bytes) {
         if let Some(follower) = self.followers.remove(&client) {
-            self.order(Order::Remove { client });
+            self.order(Order::Remove { client, last });
             self.streams.unfollow(follower.stream);
         }
         self.votes.withdraw(client);
@@ -468,16 +466,14 @@ impl Room {
         self.order(Order::Tell { client, frame: wire(message) });
     }
 
-    fn tell_all(&self, message: &ServerMessage) {
-        for &client in self.followers.keys() {
-            self.tell(client, message);
-        }
-    }
-
     fn order(&self, order: Order) {
         // There may be nobody to carry it out any more: the server ends.
         let _ = self.orders.send(order);
     }
+}
+
+fn goodbye(reason: String) -> Bytes {
+    wire(&ServerMessage::Bye { reason })
 }
 
 /// The welcome as it goes on the wire: the same for all.

@@ -64,8 +64,11 @@ impl Subscriber {
         }
     }
 
-    /// Nothing more is said to it after what waits for it alone.
-    pub(super) fn end(&mut self) {
+    /// Nothing more is said to it after what waits for it alone and the last word, which may be none.
+    pub(super) fn end(&mut self, last: Bytes) {
+        if !last.is_empty() {
+            self.tell(last);
+        }
         self.queue.ends = true;
     }
 

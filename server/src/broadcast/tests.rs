@@ -205,8 +205,7 @@ async fn a_goodbye_is_the_last_thing_that_is_said() {
     let (mut stage, pipe) = (Stage::new(), Pipe::with_room(5));
     let mut end = stage.add(1, &pipe, STREAM);
     stage.frame(STREAM, 1);
-    stage.order(Order::Tell { client: 1, frame: Bytes::from_static(b"Bye.") });
-    stage.order(Order::Remove { client: 1 });
+    stage.order(Order::Remove { client: 1, last: Bytes::from_static(b"Bye.") });
     assert!(end.try_recv().is_err());
     pipe.make_room(1000);
     stage.interval().await;

@@ -136,21 +136,21 @@ impl Follower {
         if says != (VERSION, PHYSICS_VERSION, self.table.digest) {
             return Err(FollowError::Foreign);
         }
-        let is_check = !self.waits && full.boards.len() == self.games.len() && tick == self.confirmed;
-        if !self.waits && tick < self.confirmed {
-            return Ok(Heard::Nothing);
-        }
+        let is_known = !self.waits && full.boards.len() == self.games.len() && tick <= self.confirmed;
         let mut games = Vec::with_capacity(full.boards.len());
         for state in &full.boards {
             let mut game = Game::new(Arc::clone(&self.table));
             game.restore(state.clone())?;
             games.push(game);
         }
-        if is_check {
-            self.expect(tick, digest_of_room(&games));
+        self.boards = Boards::new(&full.boards);
+        if is_known {
+            // Of an earlier tick it is the start of another stream, whose frames soon tell more than is known.
+            if tick == self.confirmed {
+                self.expect(tick, digest_of_room(&games));
+            }
             return Ok(Heard::Nothing);
         }
-        self.boards = Boards::new(&full.boards);
         self.games = games;
         self.confirmed = tick;
         self.waits = false;
@@ -164,17 +164,23 @@ impl Follower {
     /// # Errors
     /// If it is no change of the state before.
     pub fn hear_change(&mut self, change: &Change) -> Result<Result<Heard, Mismatch>, FollowError> {
-        if self.waits || change.to <= self.confirmed {
+        if self.waits {
             return Ok(Ok(Heard::Nothing));
         }
-        if change.from != self.boards.tick() || self.tick() != change.from {
+        if change.from != self.boards.tick() {
             return Ok(Err(self.gap()));
         }
         let states = self.boards.apply(change)?;
+        if change.to <= self.confirmed {
+            return Ok(Ok(Heard::Nothing));
+        }
         for (game, state) in self.games.iter_mut().zip(states) {
             game.restore(state)?;
         }
         self.confirmed = change.to;
+        // Of a stream of inputs that came before.
+        self.inputs.clear();
+        self.digests.clear();
         Ok(Ok(Heard::Further))
     }
 
@@ -190,13 +196,15 @@ impl Follower {
         if self.waits || inputs.to <= self.confirmed {
             return Ok(Ok(Heard::Nothing));
         }
-        if inputs.from != self.confirmed || self.inputs.len() + self.digests.len() > MOST_WAITING {
+        if inputs.from > self.confirmed || self.inputs.len() + self.digests.len() > MOST_WAITING {
             return Ok(Err(self.gap()));
         }
         if let Some(stray) = inputs.inputs.iter().find(|input| usize::from(input.board) >= self.games.len()) {
             return Err(FollowError::Board(stray.board));
         }
-        self.inputs.extend(&inputs.inputs);
+        // After a change of streams the first frames may begin with what is known.
+        let known = self.confirmed;
+        self.inputs.extend(inputs.inputs.iter().filter(|input| input.input.tick >= known));
         if let Some(digest) = inputs.digest {
             self.expect(inputs.to, digest);
         }
@@ -393,6 +401,30 @@ mod tests {
         follower.hear_full(&room.full()).unwrap();
         room.run_to_frame(Stream::PLAYER);
         assert_eq!(follower.hear_full(&room.full()), Ok(Heard::Anew));
+    }
+
+    /// The first full snapshot of another stream can be older than what is known, and its first frame begin before that.
+    #[test]
+    fn streams_can_be_changed_without_a_gap() {
+        let (mut room, mut follower) = (Room::new(), Follower::new(classic()));
+        follower.hear_full(&room.full()).unwrap();
+        for round in 0..40 {
+            // Inputs of the slow stream are told late: the fast one is ahead of them.
+            let old = room.full();
+            for _ in 0..3 {
+                room.run_to_frame(Stream::PLAYER);
+                assert!(follower.hear_change(&room.change()).unwrap().is_ok(), "round {round}");
+            }
+            assert_eq!(follower.hear_full(&old), Ok(Heard::Nothing));
+            room.run_to_frame(Stream::SPECTATOR);
+            assert_eq!(follower.hear_inputs(&room.inputs(true)), Ok(Ok(Heard::Further)));
+            room.run_to_frame(Stream::SPECTATOR);
+            assert_eq!(follower.hear_inputs(&room.inputs(true)), Ok(Ok(Heard::Further)));
+            assert_eq!(follower.advance(u64::MAX - 1, |_, _| {}), Ok(()));
+            assert_eq!(digest_of_room(follower.games()), digest_of_room(&room.games));
+            let late = room.full();
+            assert_eq!(follower.hear_full(&late), Ok(Heard::Nothing));
+        }
     }
 
     #[test]

@@ -7,6 +7,8 @@ mod harness;
 mod handshake;
 /// Nonsense, floods and silence: they cost their sender the connection and nobody else anything.
 mod hostile;
+/// A host's limits: each is kept, and whoever goes beyond it is told.
+mod limits;
 /// Nudging: the table moves for everybody, and a fit of nudges tilts the game.
 mod nudge;
 /// One player: from the first key to game over.
@@ -15,5 +17,7 @@ mod play;
 mod seats;
 /// The end: a clean stop tells everybody.
 mod stop;
+/// Streams: state or inputs, how often, from where, and what happens when a copy is wrong.
+mod streams;
 /// Watching, joining late, lagging behind.
 mod watch;
