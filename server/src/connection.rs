@@ -105,9 +105,9 @@ impl Reader {
                 Err(error) => return Some(Err(error.to_string())),
             }
             match self.read.read_buf(self.deframer.space()).await {
-                Ok(0) => return None,
+                // A connection that breaks is one that ends: that is no offence.
+                Ok(0) | Err(_) => return None,
                 Ok(_) => {}
-                Err(error) => return Some(Err(error.to_string())),
             }
         }
     }

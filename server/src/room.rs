@@ -3,33 +3,30 @@
 //! [`Room::tick`] is the main flow. Nothing else changes a game, and everything that does is an input with a tick. The room is
 //! a thread of its own: it sleeps until its next tick or the next command, and no crowd of sockets can hold it up.
 
+mod clients;
 mod controls;
 mod hands;
+mod turns;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::RecvTimeoutError;
 use std::time::{Duration, Instant};
 
 use bytes::Bytes;
-use shared::game::{Action, Game, GameEventKind, HOUSE, Input, Phase, Rescue, SEATS};
-use shared::physics::PHYSICS_VERSION;
-use shared::protocol::{
-    BoardEvent, BoardInput, ClientMessage, Hello, Mode, REQUEST_SECONDS, Role, ServerMessage, Stream, Welcome,
-    encode_greeting, framed,
-};
-use tokio::sync::oneshot;
+use shared::game::{Game, GameEventKind, Input, Phase, Rescue, SEATS};
+use shared::protocol::{BoardEvent, Mode, ServerMessage, Stream};
 
 use crate::account::Account;
 use crate::broadcast::{NewsKind, Order, Orders};
 use crate::commands::{Command, Heard};
 use crate::config::Config;
-use crate::lobby::{Deed, GameView, Lobby, News, Sitter};
+use crate::lobby::{Deed, GameView, Lobby, News};
 use crate::pacing::Pacer;
-use crate::session::{SessionState, is_legal};
 use crate::streams::{Streams, wire};
-use crate::transport::Outgoing;
 use crate::votes::Votes;
+use clients::{goodbye, welcome};
 use controls::Controls;
 use hands::Hands;
 
@@ -56,7 +53,7 @@ pub(crate) struct Room {
     config: Arc<Config>,
     games: Vec<Game>,
     lobby: Lobby,
-    followers: std::collections::BTreeMap<u32, Follower>,
+    followers: BTreeMap<u32, Follower>,
     streams: Streams,
     orders: Orders,
     votes: Votes,
@@ -84,7 +81,7 @@ impl Room {
         Self {
             games: (0..boards).map(|_| Game::new(Arc::clone(&config.table))).collect(),
             lobby: Lobby::new(config.mode, config.places, has_bot),
-            followers: Default::default(),
+            followers: BTreeMap::new(),
             streams: Streams::new(config.room.clone(), orders.clone()),
             orders,
             votes: Votes::default(),
@@ -173,113 +170,6 @@ impl Room {
         }
     }
 
-    fn join(
-        &mut self,
-        hello: Hello,
-        mut transport: Box<dyn Outgoing>,
-        ended: oneshot::Sender<String>,
-        reply: oneshot::Sender<Option<u32>>,
-    ) {
-        if self.lobby.len() >= self.config.most_connections {
-            let refusal = crate::connection::refusal("the server is full; try again later".to_owned());
-            // One attempt: a new socket has room for a line. The connection may have ended while it waited.
-            let _ = transport.try_write(&[std::io::IoSlice::new(&refusal)]);
-            let _ = reply.send(None);
-            return;
-        }
-        let client = self.next_client;
-        self.next_client = self.next_client.wrapping_add(1);
-        if reply.send(Some(client)).is_err() {
-            return;
-        }
-        self.account.clients += 1;
-        let Hello { name, role, stream } = hello;
-        self.streams.follow(stream, &self.games);
-        self.followers.insert(client, Follower { stream, next_full: 0 });
-        self.order(Order::Add { client, transport, stream, greeting: self.welcome.clone(), ended });
-        self.lobby.add(client, name);
-        if role == Role::Play {
-            let deeds = self.lobby.play(client, self.view());
-            self.perform(&deeds);
-        }
-    }
-
-    /// A client said something.
-    fn hear(&mut self, client: u32, message: ClientMessage) {
-        let Some((state, had_place)) = self.lobby.state(client) else { return };
-        if !is_legal(self.config.mode, state, had_place, &message) {
-            return self.expel(client, format!("{message:?} is not for a client that is {state:?}"));
-        }
-        match message {
-            ClientMessage::Act { tick, action } => {
-                if let SessionState::Seated(place) = state {
-                    self.account.controls += u64::from(self.controls.act(self.now(), place, tick, action));
-                }
-            }
-            ClientMessage::Play => {
-                let deeds = self.lobby.play(client, self.view());
-                self.perform(&deeds);
-            }
-            ClientMessage::Leave => {
-                let deeds = self.lobby.leave(client, self.view());
-                self.perform(&deeds);
-            }
-            // Connections answer themselves.
-            ClientMessage::Ping { .. } => {}
-            ClientMessage::Stream(stream) => self.switch(client, stream),
-            ClientMessage::Differs { tick, digest } => self.hear_difference(client, tick, digest),
-            ClientMessage::Vote { action } => self.hear_vote(client, state, action),
-        }
-    }
-
-    fn switch(&mut self, client: u32, stream: Stream) {
-        let Some(follower) = self.followers.get_mut(&client) else { return };
-        let before = std::mem::replace(&mut follower.stream, stream);
-        self.streams.follow(stream, &self.games);
-        self.order(Order::Switch { client, stream });
-        self.streams.unfollow(before);
-    }
-
-    /// A client's copy is not what the game is, which must never be, or it missed something. It gets a full snapshot.
-    fn hear_difference(&mut self, client: u32, tick: u64, theirs: u64) {
-        self.account.differing += 1;
-        let now = self.now();
-        let pause = self.ticks(REQUEST_SECONDS);
-        let Some(follower) = self.followers.get_mut(&client) else { return };
-        if now < follower.next_full {
-            return;
-        }
-        follower.next_full = now + pause;
-        let stream = follower.stream;
-        match self.streams.digest_at(tick) {
-            Some(ours) if theirs != 0 => {
-                tracing::warn!(client, "differs at tick {tick}: {theirs:016x} there, {ours:016x} here");
-            }
-            _ => tracing::info!(client, "asks for a full snapshot at tick {tick}"),
-        }
-        self.order(Order::Switch { client, stream });
-    }
-
-    fn expel(&mut self, client: u32, reason: String) {
-        if self.lobby.state(client).is_none() {
-            return;
-        }
-        tracing::warn!(client, "expelled: {reason}");
-        self.account.illegal += 1;
-        self.forget(client, goodbye(reason));
-    }
-
-    /// A client's session is over, with that as the last word.
-    fn forget(&mut self, client: u32, last: Bytes) {
-        if let Some(follower) = self.followers.remove(&client) {
-            self.order(Order::Remove { client, last });
-            self.streams.unfollow(follower.stream);
-        }
-        self.votes.withdraw(client);
-        let deeds = self.lobby.remove(client, self.view());
-        self.perform(&deeds);
-    }
-
     /// What the lobby decided, as inputs of the coming tick.
     fn perform(&mut self, deeds: &[Deed]) {
         for &(place, action) in deeds {
@@ -308,68 +198,6 @@ impl Room {
 
     fn is_playing(&self) -> bool {
         self.games.iter().any(|game| matches!(game.phase(), Phase::Play { .. }))
-    }
-
-    /// 1. Seats the next in line where the game lets them in; begins the next game when somebody new came up for it, or
-    ///    somebody waits for one; after a while without a game, the bot plays.
-    fn fill_places(&mut self) {
-        let deeds = self.lobby.fill_places(self.view());
-        self.perform(&deeds);
-        if self.is_playing() {
-            (self.idle_ticks, self.next_game_in) = (0, 0);
-            return;
-        }
-        self.idle_ticks += 1;
-        let waits_long = self.lobby.has_line() && self.idle_ticks > self.ticks(self.config.idle_time.as_secs_f64());
-        if self.next_game_in == 1 || waits_long {
-            let deeds = self.lobby.start_for_all();
-            self.perform(&deeds);
-            self.idle_ticks = 0;
-        }
-        self.next_game_in = self.next_game_in.saturating_sub(1);
-        if self.config.attract && !self.lobby.has_people() && self.idle_ticks >= self.ticks(BOT_PATIENCE) {
-            let mut deeds = self.lobby.attract();
-            if deeds.is_empty() {
-                deeds = self.lobby.start_for_all();
-            }
-            self.idle_ticks = 0;
-            self.perform(&deeds);
-        }
-    }
-
-    /// 1. Whoever has the turn and does nothing for too long loses it.
-    fn hurry_idlers(&mut self) {
-        let most = self.ticks(self.config.idle_time.as_secs_f64());
-        for board in 0..self.games.len() {
-            let Phase::Play { seat, serve_in: 0, .. } = self.games[board].phase() else { continue };
-            let place = if self.games.len() > 1 { board as u8 } else { seat };
-            if !matches!(self.lobby.sitter(place), Some(Sitter::Client(_))) {
-                continue;
-            }
-            if self.controls.is_idle(board, &self.games[board], place, most) {
-                tracing::info!("{} does nothing and loses the turn", self.lobby.name_of(place));
-                self.account.forfeited += 1;
-                self.controls.perform(self.now(), place, Action::Forfeit);
-            }
-        }
-    }
-
-    fn hear_vote(&mut self, client: u32, state: SessionState, action: u8) {
-        let is_action = usize::from(action) < self.crowd_actions();
-        if is_action && !matches!(state, SessionState::Seated(_)) && self.is_playing() {
-            let closes = self.now() + self.ticks(self.config.vote_time.as_secs_f64());
-            self.votes.cast(client, action, closes);
-        }
-    }
-
-    /// 2. When the time to vote is up, the house does what most want.
-    fn count_votes(&mut self) {
-        let (tick, actions) = (self.now(), self.crowd_actions());
-        let game = &self.games[0];
-        if let Some(_action) = self.votes.count(tick, actions, |_action| game.tick() > 0) {
-            let input = Input { tick, seat: HOUSE, action: Action::Forfeit };
-            self.controls.push(BoardInput { board: 0, input });
-        }
     }
 
     fn crowd_actions(&self) -> usize {
@@ -410,32 +238,6 @@ impl Room {
         }
     }
 
-    /// 4. After a game: who stays, who makes room.
-    fn note_end_of_game(&mut self) {
-        let is_playing = self.is_playing();
-        if std::mem::replace(&mut self.was_playing, is_playing) && !is_playing {
-            let mut scores = Vec::new();
-            for (board, game) in (0_u8..).zip(&self.games) {
-                for (seat, seated) in (0_u8..).zip(game.seats()) {
-                    // A game that ended because everybody left was nobody's.
-                    if seated.playing && matches!(game.phase(), Phase::Over) {
-                        let place = if self.games.len() > 1 { board } else { seat };
-                        tracing::info!("game over: {} has {} points", self.lobby.name_of(place), seated.score.points);
-                        scores.push((place, seated.score.points));
-                    }
-                }
-            }
-            self.votes.clear();
-            if scores.is_empty() {
-                return;
-            }
-            let had_line = self.lobby.has_line();
-            let deeds = self.lobby.make_room(&scores);
-            self.perform(&deeds);
-            self.next_game_in = if had_line { self.ticks(NEXT_GAME_PAUSE) } else { 0 };
-        }
-    }
-
     /// 5. Tells everybody who is there and what the crowd wants, and each what they are, when that changed.
     fn tell_news(&mut self) {
         let tick = self.now();
@@ -470,23 +272,6 @@ impl Room {
         // There may be nobody to carry it out any more: the server ends.
         let _ = self.orders.send(order);
     }
-}
-
-fn goodbye(reason: String) -> Bytes {
-    wire(&ServerMessage::Bye { reason })
-}
-
-/// The welcome as it goes on the wire: the same for all.
-fn welcome(config: &Config) -> Bytes {
-    let welcome = Welcome {
-        room: config.room.clone(),
-        mode: config.mode,
-        places: config.places.clamp(1, SEATS) as u8,
-        physics: PHYSICS_VERSION,
-        table_digest: config.table.digest,
-        table: config.table.source.clone(),
-    };
-    framed(&encode_greeting(&ServerMessage::Welcome(welcome))).into()
 }
 
 #[cfg(test)]

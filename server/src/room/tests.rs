@@ -1,12 +1,14 @@
 //! A room without sockets: what the modes do, tick by tick.
 
 use super::*;
-use crate::broadcast::Order;
+use crate::lobby::Sitter;
+use crate::session::SessionState;
+use crate::transport::Outgoing;
 use shared::game::replay::Recorder;
-use shared::game::{Nudge, Phase};
-use shared::protocol::{Inputs, Roster, decode_from_server};
+use shared::game::{Action, Nudge};
+use shared::protocol::{ClientMessage, Hello, Inputs, Role, Roster, decode_from_server};
 use shared::table::{SHIPPED, Table};
-use tokio::sync::mpsc;
+use tokio::sync::{mpsc, oneshot};
 
 /// A room, and what it orders to be sent.
 struct Stage {

@@ -24,15 +24,11 @@ pub(super) fn patch(old: &[u8], new: &[u8]) -> Vec<u8> {
     while let Some(skip) = old[done..].iter().zip(&new[done..]).position(|(a, b)| a != b) {
         let start = done + skip;
         let mut end = start + 1;
-        let mut same = 0;
-        for place in end..new.len() {
+        for place in start + 1..new.len() {
             if old[place] != new[place] {
-                (end, same) = (place + 1, 0);
-            } else {
-                same += 1;
-                if same == WORTH_A_SKIP {
-                    break;
-                }
+                end = place + 1;
+            } else if place + 1 - end == WORTH_A_SKIP {
+                break;
             }
         }
         write_varint(&mut patch, skip as u64);

@@ -1,0 +1,89 @@
+//! Whose turn it is to play: who is seated when, when a game begins, who idles, who stays after it; and what the crowd does.
+
+use shared::game::{Action, HOUSE, Input, Phase};
+use shared::protocol::BoardInput;
+
+use super::{BOT_PATIENCE, NEXT_GAME_PAUSE, Room};
+use crate::lobby::Sitter;
+
+impl Room {
+    /// 1. Seats the next in line where the game lets them in; begins the next game when somebody new came up for it, or
+    ///    somebody waits for one; after a while without a game, the bot plays.
+    pub(super) fn fill_places(&mut self) {
+        let deeds = self.lobby.fill_places(self.view());
+        self.perform(&deeds);
+        if self.is_playing() {
+            (self.idle_ticks, self.next_game_in) = (0, 0);
+            return;
+        }
+        self.idle_ticks += 1;
+        let waits_long = self.lobby.has_line() && self.idle_ticks > self.ticks(self.config.idle_time.as_secs_f64());
+        if self.next_game_in == 1 || waits_long {
+            let deeds = self.lobby.start_for_all();
+            self.perform(&deeds);
+            self.idle_ticks = 0;
+        }
+        self.next_game_in = self.next_game_in.saturating_sub(1);
+        if self.config.attract && !self.lobby.has_people() && self.idle_ticks >= self.ticks(BOT_PATIENCE) {
+            let mut deeds = self.lobby.attract();
+            if deeds.is_empty() {
+                deeds = self.lobby.start_for_all();
+            }
+            self.idle_ticks = 0;
+            self.perform(&deeds);
+        }
+    }
+
+    /// 1. Whoever has the turn and does nothing for too long loses it.
+    pub(super) fn hurry_idlers(&mut self) {
+        let most = self.ticks(self.config.idle_time.as_secs_f64());
+        for board in 0..self.games.len() {
+            let Phase::Play { seat, serve_in: 0, .. } = self.games[board].phase() else { continue };
+            let place = if self.games.len() > 1 { board as u8 } else { seat };
+            if !matches!(self.lobby.sitter(place), Some(Sitter::Client(_))) {
+                continue;
+            }
+            if self.controls.is_idle(board, &self.games[board], place, most) {
+                tracing::info!("{} does nothing and loses the turn", self.lobby.name_of(place));
+                self.account.forfeited += 1;
+                self.controls.perform(self.now(), place, Action::Forfeit);
+            }
+        }
+    }
+
+    /// 2. When the time to vote is up, the house does what most want.
+    pub(super) fn count_votes(&mut self) {
+        let (tick, actions) = (self.now(), self.crowd_actions());
+        let game = &self.games[0];
+        if let Some(_action) = self.votes.count(tick, actions, |_action| game.tick() > 0) {
+            let input = Input { tick, seat: HOUSE, action: Action::Forfeit };
+            self.controls.push(BoardInput { board: 0, input });
+        }
+    }
+
+    /// 4. After a game: who stays, who makes room.
+    pub(super) fn note_end_of_game(&mut self) {
+        let is_playing = self.is_playing();
+        if std::mem::replace(&mut self.was_playing, is_playing) && !is_playing {
+            let mut scores = Vec::new();
+            for (board, game) in (0_u8..).zip(&self.games) {
+                for (seat, seated) in (0_u8..).zip(game.seats()) {
+                    // A game that ended because everybody left was nobody's.
+                    if seated.playing && matches!(game.phase(), Phase::Over) {
+                        let place = if self.games.len() > 1 { board } else { seat };
+                        tracing::info!("game over: {} has {} points", self.lobby.name_of(place), seated.score.points);
+                        scores.push((place, seated.score.points));
+                    }
+                }
+            }
+            self.votes.clear();
+            if scores.is_empty() {
+                return;
+            }
+            let had_line = self.lobby.has_line();
+            let deeds = self.lobby.make_room(&scores);
+            self.perform(&deeds);
+            self.next_game_in = if had_line { self.ticks(NEXT_GAME_PAUSE) } else { 0 };
+        }
+    }
+}
