@@ -207,21 +207,21 @@ impl Lobby {
     }
 
     /// A game is over, with these points of those who played it. The winner of two or more stays; of the others as many as
-    /// wait make room, those with the fewest points first. Whoever played alone makes room too.
+    /// wait make room: the bot first, then those with the fewest points. Whoever played alone makes room too.
     pub(crate) fn make_room(&mut self, scores: &[(u8, u64)]) -> Vec<Deed> {
         let winner = scores.iter().copied().max_by_key(|&(place, points)| (points, u8::MAX - place));
         let winner = winner.filter(|_| scores.len() > 1).map(|(place, _)| place);
         self.crown(winner);
         let free = self.places[..self.count].iter().filter(|place| place.is_none()).count();
         let needed = self.line.len().saturating_sub(free);
-        let mut leaving: Vec<(u8, u64)> = scores.iter().copied().filter(|&(place, _)| Some(place) != winner).collect();
-        leaving.sort_by_key(|&(place, points)| (points, u8::MAX - place));
+        let is_bot = |place: u8| self.sitter(place) == Some(Sitter::Bot);
+        let mut leaving: Vec<(u8, u64)> = scores.to_vec();
+        leaving.retain(|&(place, _)| self.sitter(place).is_some() && (Some(place) != winner || is_bot(place)));
+        leaving.sort_by_key(|&(place, points)| (!is_bot(place), points, u8::MAX - place));
         let mut deeds = Vec::new();
         for (place, _) in leaving.into_iter().take(needed) {
-            match self.places[usize::from(place)] {
-                Some(Sitter::Client(id)) => self.set_state(id, SessionState::Watching),
-                Some(Sitter::Bot) => {}
-                None => continue,
+            if let Some(Sitter::Client(id)) = self.sitter(place) {
+                self.set_state(id, SessionState::Watching);
             }
             deeds.push(self.vacate(place));
         }

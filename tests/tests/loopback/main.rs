@@ -9,6 +9,8 @@ mod handshake;
 mod hostile;
 /// A host's limits: each is kept, and whoever goes beyond it is told.
 mod limits;
+/// The three ways of playing against those who watch.
+mod modes;
 /// Nudging: the table moves for everybody, and a fit of nudges tilts the game.
 mod nudge;
 /// One player: from the first key to game over.
