@@ -10,6 +10,8 @@ mod multiball;
 mod multiball_tests;
 pub mod replay;
 mod rescue;
+#[cfg(test)]
+mod size_tests;
 mod state;
 #[cfg(test)]
 mod tests;

@@ -18,6 +18,7 @@ const MOST_PAUSE: u32 = 2_000_000;
 
 /// A place at the table.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "SeatForm", into = "SeatForm")]
 pub struct Seat {
     /// Somebody sits there.
     pub taken: bool,
@@ -25,6 +26,22 @@ pub struct Seat {
     pub playing: bool,
     /// Their points in this game, or in the last one.
     pub score: Score,
+}
+
+/// As it is written: who sits and who plays are two bits of one byte.
+#[derive(Serialize, Deserialize)]
+struct SeatForm(u8, Score);
+
+impl From<Seat> for SeatForm {
+    fn from(Seat { taken, playing, score }: Seat) -> Self {
+        Self(u8::from(taken) | u8::from(playing) << 1, score)
+    }
+}
+
+impl From<SeatForm> for Seat {
+    fn from(SeatForm(bits, score): SeatForm) -> Self {
+        Self { taken: bits & 1 != 0, playing: bits & 2 != 0, score }
+    }
 }
 
 /// Where a game stands.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::ball::Support;
 use super::constants::{MOST_SHAKE, STILL_BOB, STILL_TABLE};
+use super::numbers::Numbers;
 use super::world::World;
 
 /// What is fixed about a cabinet.
@@ -62,6 +63,7 @@ impl Oscillator {
 
 /// What changes about a cabinet, seen from the floor under it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(from = "Numbers<12>", into = "Numbers<12>")]
 pub struct CabinetState {
     /// Of the table from its place, m.
     pub displacement: DVec2,
@@ -75,6 +77,27 @@ pub struct CabinetState {
     pub bob: DVec2,
     /// Of the bob, seen from the table, m/s.
     pub bob_velocity: DVec2,
+}
+
+/// As it is written: what was pushed from the side swings sideways alone, and what is still takes no room.
+impl From<CabinetState> for Numbers<12> {
+    fn from(state: CabinetState) -> Self {
+        let CabinetState { displacement, velocity, push, acceleration, bob, bob_velocity } = state;
+        let across = [push, displacement, velocity, acceleration, bob, bob_velocity];
+        let mut numbers = [0.0; 12];
+        for (place, vector) in across.into_iter().enumerate() {
+            (numbers[place], numbers[place + 6]) = (vector.x, vector.y);
+        }
+        Self(numbers)
+    }
+}
+
+impl From<Numbers<12>> for CabinetState {
+    fn from(Numbers(numbers): Numbers<12>) -> Self {
+        let vector = |place: usize| DVec2::new(numbers[place], numbers[place + 6]);
+        let [push, displacement, velocity, acceleration, bob, bob_velocity] = [0, 1, 2, 3, 4, 5].map(vector);
+        Self { displacement, velocity, push, acceleration, bob, bob_velocity }
+    }
 }
 
 impl CabinetState {

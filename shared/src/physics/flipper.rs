@@ -4,6 +4,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 use super::constants::FLIPPER_STOP_SPEED;
+use super::numbers::Numbers;
 use super::scene::Material;
 use super::shapes::{Arc, Segment, Shape, Side};
 use crate::math::{direction, tangent};
@@ -58,6 +59,7 @@ pub enum FlipperRest {
 
 /// What changes about a flipper.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "FlipperForm", into = "FlipperForm")]
 pub struct FlipperState {
     /// Where in its stroke.
     pub rest: FlipperRest,
@@ -74,6 +76,22 @@ pub struct FlipperState {
 impl Default for FlipperState {
     fn default() -> Self {
         Self { rest: FlipperRest::AtRest, swing: 0.0, speed: 0.0, pressed: false, coil_time: 0.0 }
+    }
+}
+
+/// As it is written.
+#[derive(Serialize, Deserialize)]
+struct FlipperForm(FlipperRest, bool, Numbers<3>);
+
+impl From<FlipperState> for FlipperForm {
+    fn from(FlipperState { rest, swing, speed, pressed, coil_time }: FlipperState) -> Self {
+        Self(rest, pressed, Numbers([coil_time, speed, swing]))
+    }
+}
+
+impl From<FlipperForm> for FlipperState {
+    fn from(FlipperForm(rest, pressed, Numbers([coil_time, speed, swing])): FlipperForm) -> Self {
+        Self { rest, swing, speed, pressed, coil_time }
     }
 }
 

@@ -22,6 +22,7 @@ use serde::{Deserialize, Serialize};
 use super::ball::{Instant, Support};
 use super::constants::{DEEPEST_OVERLAP, MOST_HINGE_SPEED};
 use super::happened::{Event, EventKind, NO_BALL};
+use super::numbers::Numbers;
 use super::shapes::{Segment, Shape};
 use super::world::World;
 
@@ -53,6 +54,7 @@ impl HingeSpec {
 
 /// What changes about a plate: how it turned when that last changed. Angles grow towards where the line's normal points.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "HingeForm", into = "HingeForm")]
 pub struct HingeState {
     /// When it was pushed or had turned half round.
     pub start: Instant,
@@ -60,6 +62,22 @@ pub struct HingeState {
     pub angle: f64,
     /// Then, rad/s.
     pub speed: f64,
+}
+
+/// As it is written.
+#[derive(Serialize, Deserialize)]
+struct HingeForm(u64, Numbers<3>);
+
+impl From<HingeState> for HingeForm {
+    fn from(HingeState { start, angle, speed }: HingeState) -> Self {
+        Self(start.tick, Numbers([angle, start.offset, speed]))
+    }
+}
+
+impl From<HingeForm> for HingeState {
+    fn from(HingeForm(tick, Numbers([angle, offset, speed])): HingeForm) -> Self {
+        Self { start: Instant { tick, offset }, angle, speed }
+    }
 }
 
 impl Default for HingeState {

@@ -20,6 +20,7 @@ mod meetings;
 pub mod motion;
 mod movers;
 pub mod needs;
+mod numbers;
 pub mod plunger;
 mod pull;
 pub mod saucer;

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
+use super::numbers::Numbers;
 use super::scene::Material;
 
 /// What is fixed about a plunger.
@@ -32,6 +33,7 @@ pub struct PlungerSpec {
 
 /// What changes about a plunger.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(from = "PlungerForm", into = "PlungerForm")]
 pub struct PlungerState {
     /// Whether the head rests at home.
     pub home: bool,
@@ -53,6 +55,22 @@ impl PlungerState {
     /// Whether the head lies at home with nothing that would move it.
     pub fn stays_home(&self) -> bool {
         self.pull == 0.0 && self.speed == 0.0 && self.hand.is_none_or(|hand| hand == 0.0)
+    }
+}
+
+/// As it is written.
+#[derive(Serialize, Deserialize)]
+struct PlungerForm(bool, Option<f64>, Numbers<2>);
+
+impl From<PlungerState> for PlungerForm {
+    fn from(PlungerState { home, pull, speed, hand }: PlungerState) -> Self {
+        Self(home, hand, Numbers([speed, pull]))
+    }
+}
+
+impl From<PlungerForm> for PlungerState {
+    fn from(PlungerForm(home, hand, Numbers([speed, pull])): PlungerForm) -> Self {
+        Self { home, pull, speed, hand }
     }
 }
 

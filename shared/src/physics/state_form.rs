@@ -3,7 +3,9 @@
 //!
 //! | always | if needed |
 //! |---|---|
-//! | needs, tick, balls served; of each ball its id, the start, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges, magnets, the cabinet |
+//! | needs, tick, balls served; of each ball its id, the age, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges, magnets, the cabinet |
+//!
+//! A number that is zero, as many of them are most of the time, is a bit: see [`super::numbers`].
 
 use core::fmt;
 
@@ -12,9 +14,10 @@ use serde::de::{DeserializeSeed, Error, SeqAccess, Visitor};
 use serde::ser::{SerializeSeq, SerializeTuple};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-use super::ball::{Ball, Flight, Instant, Support};
+use super::ball::{Ball, Flight, Instant, Slide, Support};
 use super::cabinet::CabinetState;
 use super::needs::Needs;
+use super::numbers::Numbers;
 use super::state::{MOST_BALLS, MOST_PARTS, WorldState};
 use crate::math::bounded;
 
@@ -27,7 +30,7 @@ impl Serialize for WorldState {
         tuple.serialize_element(&needs.bits())?;
         tuple.serialize_element(&self.tick)?;
         tuple.serialize_element(&self.served)?;
-        tuple.serialize_element(&Balls { needs, balls: &self.balls })?;
+        tuple.serialize_element(&Balls { needs, tick: self.tick, balls: &self.balls })?;
         if needs.flippers {
             tuple.serialize_element(&self.flippers)?;
         }
@@ -67,11 +70,14 @@ impl<'de> Deserialize<'de> for WorldState {
                 if needs.bits() != bits {
                     return Err(A::Error::custom("a need that is not known here"));
                 }
+                let tick = next(&mut seq, "tick")?;
+                let served = next(&mut seq, "served")?;
+                let balls = BallsSeed { needs, tick };
                 Ok(WorldState {
                     needs,
-                    tick: next(&mut seq, "tick")?,
-                    served: next(&mut seq, "served")?,
-                    balls: seq.next_element_seed(BallsSeed(needs))?.ok_or_else(|| A::Error::custom("no balls"))?,
+                    tick,
+                    served,
+                    balls: seq.next_element_seed(balls)?.ok_or_else(|| A::Error::custom("no balls"))?,
                     flippers: parts(&mut seq, needs.flippers)?,
                     plungers: parts(&mut seq, needs.plungers)?,
                     targets: parts(&mut seq, needs.targets)?,
@@ -111,14 +117,17 @@ fn parts<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(seq: &mut A, needed: bool)
 
 struct Balls<'a> {
     needs: Needs,
+    tick: u64,
     balls: &'a [Ball],
 }
 
 impl Serialize for Balls<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut seq = serializer.serialize_seq(Some(self.balls.len()))?;
+        let mut before = DVec2::ZERO;
         for ball in self.balls {
-            seq.serialize_element(&OneBall { needs: self.needs, ball })?;
+            seq.serialize_element(&OneBall { needs: self.needs, tick: self.tick, before, ball })?;
+            before = ball.flight.acceleration;
         }
         seq.end()
     }
@@ -126,42 +135,70 @@ impl Serialize for Balls<'_> {
 
 struct OneBall<'a> {
     needs: Needs,
+    tick: u64,
+    /// Acceleration of the ball before.
+    before: DVec2,
     ball: &'a Ball,
 }
 
+/// What a ball has that it may as well not have: bits of a byte.
+const HAS_PAST: u8 = 1;
+const HAS_SLIDE: u8 = 2;
+const HAS_SLIDE_END: u8 = 4;
+/// It falls like the ball before, bit for bit: as free balls do.
+const FALLS_ALIKE: u8 = 8;
+
 impl Serialize for OneBall<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let (needs, Ball { id, kind, floor, flight, spin, support, slide, past }) = (self.needs, self.ball);
-        let extra = [needs.contact, needs.spin, needs.slides(), needs.kinds, needs.floors];
-        let extra = extra.into_iter().filter(|&needed| needed).count();
-        let mut tuple = serializer.serialize_tuple(6 + extra)?;
-        tuple.serialize_element(id)?;
-        tuple.serialize_element(&flight.start)?;
-        tuple.serialize_element(&flight.position)?;
-        tuple.serialize_element(&flight.velocity)?;
-        tuple.serialize_element(support)?;
-        tuple.serialize_element(past)?;
-        if needs.contact {
-            tuple.serialize_element(&flight.acceleration)?;
+        let (needs, Ball { id, kind, floor, flight, spin, support, slide, past }) = (self.needs, *self.ball);
+        let slide = slide.filter(|_| needs.slides());
+        let slide_end = slide.and_then(|slide| slide.until);
+        let bits = |vector: DVec2| vector.to_array().map(f64::to_bits);
+        let falls_alike = needs.contact && bits(flight.acceleration) == bits(self.before);
+        let has = u8::from(past.is_some()) * HAS_PAST
+            + u8::from(slide.is_some()) * HAS_SLIDE
+            + u8::from(slide_end.is_some()) * HAS_SLIDE_END
+            + u8::from(falls_alike) * FALLS_ALIKE;
+        let acceleration = if needs.contact && !falls_alike { flight.acceleration } else { DVec2::ZERO };
+        let numbers = Numbers([
+            past.map_or(0.0, |(t, _)| t),
+            acceleration.x,
+            flight.start.offset,
+            if needs.spin { spin } else { 0.0 },
+            slide_end.unwrap_or(0.0),
+            slide.map_or(0.0, |slide| slide.spin_rate),
+            acceleration.y,
+            flight.velocity.x,
+            flight.velocity.y,
+            flight.position.x,
+            flight.position.y,
+        ]);
+        let extra = [past.is_some(), needs.kinds, needs.floors];
+        let mut tuple = serializer.serialize_tuple(5 + extra.into_iter().filter(|&there| there).count())?;
+        tuple.serialize_element(&id)?;
+        // No flight begins later than now, but nothing may come to harm of one that did.
+        tuple.serialize_element(&self.tick.wrapping_sub(flight.start.tick))?;
+        tuple.serialize_element(&support)?;
+        tuple.serialize_element(&has)?;
+        if let Some((_, collider)) = past {
+            tuple.serialize_element(&collider)?;
         }
-        if needs.spin {
-            tuple.serialize_element(spin)?;
-        }
-        if needs.slides() {
-            tuple.serialize_element(slide)?;
-        }
+        tuple.serialize_element(&numbers)?;
         if needs.kinds {
-            tuple.serialize_element(kind)?;
+            tuple.serialize_element(&kind)?;
         }
         if needs.floors {
-            tuple.serialize_element(floor)?;
+            tuple.serialize_element(&floor)?;
         }
         tuple.end()
     }
 }
 
 #[derive(Clone, Copy)]
-struct BallsSeed(Needs);
+struct BallsSeed {
+    needs: Needs,
+    tick: u64,
+}
 
 impl<'de> DeserializeSeed<'de> for BallsSeed {
     type Value = Vec<Ball>;
@@ -183,23 +220,29 @@ impl<'de> Visitor<'de> for BallsSeed {
             return Err(A::Error::invalid_length(length, &self));
         }
         let mut balls = Vec::new();
-        while let Some(ball) = seq.next_element_seed(BallSeed(self.0))? {
+        let mut before = DVec2::ZERO;
+        while let Some(ball) = seq.next_element_seed(BallSeed { of: self, before })? {
             if balls.len() == MOST_BALLS {
                 return Err(A::Error::invalid_length(MOST_BALLS + 1, &self));
             }
+            before = ball.flight.acceleration;
             balls.push(ball);
         }
         Ok(balls)
     }
 }
 
-struct BallSeed(Needs);
+struct BallSeed {
+    of: BallsSeed,
+    before: DVec2,
+}
 
 impl<'de> DeserializeSeed<'de> for BallSeed {
     type Value = Ball;
 
     fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Ball, D::Error> {
-        deserializer.deserialize_tuple(11, self)
+        // How many elements follow is known once the first of them is read.
+        deserializer.deserialize_tuple(8, self)
     }
 }
 
@@ -211,19 +254,25 @@ impl<'de> Visitor<'de> for BallSeed {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Ball, A::Error> {
-        let needs = self.0;
+        let BallsSeed { needs, tick } = self.of;
         let id = next(&mut seq, "id")?;
-        let start: Instant = next(&mut seq, "start")?;
-        let position: DVec2 = next(&mut seq, "position")?;
-        let velocity: DVec2 = next(&mut seq, "velocity")?;
+        let age: u64 = next(&mut seq, "age")?;
         let support: Support = next(&mut seq, "support")?;
-        let past = next(&mut seq, "past")?;
-        let acceleration = if needs.contact { next(&mut seq, "acceleration")? } else { DVec2::ZERO };
-        let spin = if needs.spin { next(&mut seq, "spin")? } else { 0.0 };
-        let slide = if needs.slides() { next(&mut seq, "slide")? } else { None };
+        let has: u8 = next(&mut seq, "mark")?;
+        let has = |bit: u8| has & bit != 0;
+        let collider: Option<u16> = if has(HAS_PAST) { Some(next(&mut seq, "past")?) } else { None };
+        let Numbers([past, pull_x, offset, spin, slide_end, spin_rate, pull_y, speed_x, speed_y, x, y]) =
+            next(&mut seq, "flight")?;
         let kind = if needs.kinds { next(&mut seq, "kind")? } else { 0 };
         let floor = if needs.floors { next(&mut seq, "floor")? } else { 0 };
-        let flight = Flight { start, position, velocity, acceleration };
-        Ok(Ball { id, kind, floor, flight, spin, support, slide, past })
+        let flight = Flight {
+            start: Instant { tick: tick.wrapping_sub(age), offset },
+            position: DVec2::new(x, y),
+            velocity: DVec2::new(speed_x, speed_y),
+            acceleration: if has(FALLS_ALIKE) { self.before } else { DVec2::new(pull_x, pull_y) },
+        };
+        let slide = Slide { until: has(HAS_SLIDE_END).then_some(slide_end), spin_rate };
+        let slide = has(HAS_SLIDE).then_some(slide);
+        Ok(Ball { id, kind, floor, flight, spin, support, slide, past: collider.map(|collider| (past, collider)) })
     }
 }
