@@ -85,8 +85,12 @@ fn turn_of(spec: &HingeSpec, hinge: &HingeState, t: f64) -> f64 {
 
 /// The view of a table at which nothing happens.
 pub(crate) fn still_view(table: &Table, words: Words, now: f64) -> View {
+    let mut elements = vec![ElementView::default(); table.file.elements.len()];
+    for (&element, stands) in table.targets.iter().zip(table.scene.targets_at_start()) {
+        elements[usize::from(element)].down = !stands;
+    }
     View {
-        elements: vec![ElementView::default(); table.file.elements.len()],
+        elements,
         flippers: table.scene.flippers.iter().map(|flipper| flipper.rest as f32).collect(),
         plungers: vec![0.0; table.scene.plungers.len()],
         hud: Hud {

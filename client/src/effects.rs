@@ -54,6 +54,12 @@ impl Effects {
             GameEventKind::Added { .. } if loose > 0 => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
             GameEventKind::Forfeited { .. } => self.say("TURN LOST".to_owned(), now),
+            GameEventKind::Announced { action } => {
+                let crowd = table.rules.crowd.as_ref();
+                if let Some(action) = crowd.and_then(|crowd| crowd.actions.get(usize::from(action))) {
+                    self.say(action.name.clone(), now);
+                }
+            }
             GameEventKind::Rescued { by: Rescue::Kickers } => self.say("BALL SEARCH".to_owned(), now),
             GameEventKind::Rescued { by: Rescue::Relaunch } => self.say("BALL RETURNED".to_owned(), now),
             GameEventKind::Nudged { nudge } => {

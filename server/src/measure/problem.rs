@@ -154,7 +154,7 @@ fn shot(game: &Game) -> Option<Scene> {
     let ball = world.state().balls.first()?;
     let (position, velocity) = ball.at(Instant::start_of(game.tick()), scene.tick_seconds);
     let radius = scene.radius(ball.kind);
-    let standing = vec![true; usize::from(scene.targets)];
+    let standing: Vec<_> = scene.targets_at_start().collect();
     let is_clear = scene.colliders.iter().all(|collider| {
         collider.role.is_passed()
             || !is_present(collider.presence, &standing)

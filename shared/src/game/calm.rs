@@ -66,12 +66,12 @@ impl Game {
     }
 
     fn play_now(&self) -> Play {
-        Play { phase: self.phase(), ..self.play.clone() }
+        Play { phase: self.phase(), crowd: self.crowd_now(), ..self.play.clone() }
     }
 
     /// Makes up for the calm ticks: one is about to be played that may not be.
     pub(super) fn count_calm(&mut self) {
-        self.play.phase = self.phase();
+        (self.play.phase, self.play.crowd) = (self.phase(), self.crowd_now());
         self.calm.counted = self.tick();
     }
 
@@ -96,6 +96,9 @@ impl Game {
             }
             if look.in_play {
                 due_in(self.rescue_due_in(quiet, QUIET_AFTER));
+            }
+            if let Some(ticks) = self.crowd_due_in() {
+                due_in(ticks);
             }
             if until > tick {
                 until = until.min(self.look_holds_until());

@@ -118,6 +118,21 @@ pub enum GameEventKind {
         /// Whose.
         seat: u8,
     },
+    /// The crowd is going to do something, by its place in the table's crowd.
+    Announced {
+        /// Its place.
+        action: u8,
+    },
+    /// It does it.
+    Acted {
+        /// Its place.
+        action: u8,
+    },
+    /// What it did and what lasted is over.
+    Undone {
+        /// Its place.
+        action: u8,
+    },
     /// Something was done about a stuck or escaped ball.
     Rescued {
         /// What.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Seats at a table: players who alternate ball by ball.
 pub const SEATS: usize = 4;
 
-/// In the place of a seat: the house, which the crowd plays.
+/// In the place of a seat: the inputs of who watches.
 pub const HOUSE: u8 = u8::MAX;
 
 /// Where a nudge comes from.
@@ -49,6 +49,9 @@ pub enum Action {
     /// The bonus is collected as at a ball that is lost. On a real machine it is no different: it throws out a ball at last that
     /// nobody launches, nobody flips, and the bonus is counted when it drains. Only a tilt costs it.
     Forfeit,
+    /// Of [`HOUSE`]: what the crowd does to the player, by its place among the actions of the table's crowd. What it may not do
+    /// just now has no effect; see [`super::Game::can_crowd`].
+    Crowd(u8),
 }
 
 impl Action {

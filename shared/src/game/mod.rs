@@ -3,6 +3,9 @@
 
 mod bot;
 mod calm;
+mod crowd;
+#[cfg(test)]
+mod crowd_tests;
 mod events;
 mod input;
 mod multiball;
@@ -18,10 +21,12 @@ mod tests;
 mod tilt;
 #[cfg(test)]
 mod tilt_tests;
+mod turns;
 
 use std::sync::Arc;
 
 pub use bot::Bot;
+pub use crowd::{Announced, CrowdView, Why};
 pub use events::{GameEvent, GameEventKind, Rescue};
 pub use input::{Action, HOUSE, Input, Nudge, SEATS};
 pub(crate) use state::sample_play;
@@ -35,17 +40,12 @@ use crate::physics::{EventKind, StateError, World};
 use crate::rules::{self, Effect, Occasion, Score};
 use crate::table::Table;
 
-/// Seconds between a lost ball and the next.
-const SERVE_PAUSE: f64 = 1.5;
-/// Seconds between the start of a game and its first ball.
-const START_PAUSE: f64 = 0.3;
-
 /// A game in progress, or a table that waits for one.
 #[derive(Debug, Clone)]
 pub struct Game {
     table: Arc<Table>,
     world: World,
-    play: state::Play,
+    play: Play,
     events: Vec<GameEvent>,
     /// The tick that is being played: events are stamped with it.
     now: u64,
@@ -58,7 +58,8 @@ impl Game {
         let world = World::new(Arc::clone(&table.scene));
         // Of each physical event the rules may make points and a message.
         let events = Vec::with_capacity(3 * world.room_for_events());
-        Self { table, world, play: state::Play::default(), events, now: 0, calm: Calm::default() }
+        let play = Play::new(&table);
+        Self { table, world, play, events, now: 0, calm: Calm::default() }
     }
 
     /// Advances by one tick. Inputs for other ticks are not this call's: they are ignored.
@@ -88,7 +89,9 @@ impl Game {
         let tick = self.world.state().tick;
         self.count_calm();
         self.now = tick;
-        // 1. What players do.
+        // 0. What the crowd has announced, and what of it is over.
+        self.run_crowd();
+        // 1. What players do, and what the crowd wants.
         for input in inputs.iter().filter(|input| input.tick == tick) {
             self.act(input.seat, input.action);
         }
@@ -108,6 +111,7 @@ impl Game {
         }
         self.end_turn_when_lost();
         let look = self.free_stuck_ball();
+        self.feed_crowd(look);
         self.find_calm(look);
     }
 
@@ -176,7 +180,7 @@ impl Game {
     /// # Errors
     /// If the state does not fit the table; the game is then unchanged.
     pub fn restore(&mut self, state: GameState) -> Result<(), StateError> {
-        state.play.check()?;
+        state.play.check(&self.table)?;
         self.world.restore(state.world)?;
         self.play = state.play;
         self.calm = Calm { counted: self.tick(), ..Calm::default() };
@@ -191,6 +195,9 @@ impl Game {
 
     /// 1. An action of a seat. What is not theirs to do now has no effect.
     fn act(&mut self, seat: u8, action: Action) {
+        if let (HOUSE, Action::Crowd(place)) = (seat, action) {
+            self.announce(place);
+        }
         let Some(place) = self.play.seats.get(usize::from(seat)).copied() else { return };
         // A tilted game hears no buttons, not even as a sign of life; its plunger is a rod of steel.
         if self.play.tilt.tilted && matches!(action, Action::Flipper { .. } | Action::Nudge(_)) {
@@ -220,6 +227,8 @@ impl Game {
                     self.start();
                 }
             }
+            // Not a seat's to do.
+            Action::Crowd(_) => {}
             Action::Forfeit => {
                 if self.play.phase.has_turn(seat) {
                     self.forfeit(seat);
@@ -248,101 +257,6 @@ impl Game {
                     self.world.pull(None);
                 }
             }
-        }
-    }
-
-    fn start(&mut self) {
-        for seat in &mut self.play.seats {
-            seat.playing = seat.taken;
-            seat.score = Score::default();
-        }
-        self.emit(GameEventKind::Started);
-        if let Some(first) = self.play.seats.iter().position(|seat| seat.playing) {
-            self.begin_turn(first as u8, 1, START_PAUSE);
-        }
-    }
-
-    fn stand(&mut self, seat: u8) {
-        let had_turn = self.play.phase.has_turn(seat);
-        let place = &mut self.play.seats[usize::from(seat)];
-        (place.taken, place.playing) = (false, false);
-        self.emit(GameEventKind::StoodUp { seat });
-        if had_turn {
-            self.world.clear_balls();
-            self.next_turn();
-        }
-    }
-
-    /// A turn is given up. What has been served ends as a ball that is lost does.
-    fn forfeit(&mut self, seat: u8) {
-        let was_served = self.is_ball_of(seat);
-        self.world.clear_balls();
-        self.emit(GameEventKind::Forfeited { seat });
-        if was_served {
-            self.occasion(Occasion::BallEnd, None);
-        }
-        self.next_turn();
-    }
-
-    /// The player whose turn it is gets a ball in a while.
-    fn begin_turn(&mut self, seat: u8, ball: u32, pause: f64) {
-        for right in [false, true] {
-            self.world.press(right, false);
-        }
-        self.world.pull(None);
-        self.world.clear_balls();
-        self.play.tilt = Tilt::default();
-        self.world.still_the_bob();
-        for (place, magnet) in (0..).zip(&self.table.scene.magnets) {
-            self.world.switch(place, magnet.on);
-        }
-        let serve_in = self.ticks(pause);
-        self.play.phase = Phase::Play {
-            seat,
-            ball,
-            serve_in,
-            untouched: true,
-            still: 0,
-            watched: 0,
-            quiet: 0,
-            searches: 0,
-            extra: 0,
-        };
-    }
-
-    fn next_turn(&mut self) {
-        let Phase::Play { seat, ball, .. } = self.play.phase else { return };
-        let playing = |from: usize, to: usize| (from..to).find(|&i| self.play.seats[i].playing);
-        let (next, ball) = match playing(usize::from(seat) + 1, SEATS) {
-            Some(next) => (Some(next), ball),
-            None => (playing(0, SEATS), ball + 1),
-        };
-        match next {
-            Some(next) if ball <= self.table.rules.balls => self.begin_turn(next as u8, ball, SERVE_PAUSE),
-            _ => {
-                for right in [false, true] {
-                    self.world.press(right, false);
-                }
-                self.world.pull(None);
-                self.play.phase = Phase::Over;
-                self.emit(GameEventKind::Over);
-            }
-        }
-    }
-
-    /// 2. Serves the ball whose pause is over.
-    fn serve_due(&mut self) {
-        let Phase::Play { seat, ball, serve_in, .. } = &mut self.play.phase else { return };
-        match serve_in {
-            0 => {}
-            1 => {
-                *serve_in = 0;
-                let (seat, ball) = (*seat, *ball);
-                self.world.serve(self.table.ball_start);
-                self.emit(GameEventKind::Served { seat, ball });
-                self.occasion(Occasion::BallStart, None);
-            }
-            _ => *serve_in -= 1,
         }
     }
 
@@ -399,17 +313,6 @@ impl Game {
             };
             events.push(GameEvent { tick, kind });
         });
-    }
-
-    /// 5. When no ball is left, the turn is over.
-    fn end_turn_when_lost(&mut self) {
-        if let Phase::Play { seat, serve_in: 0, extra: 0, .. } = self.play.phase
-            && self.world.state().balls.is_empty()
-        {
-            self.emit(GameEventKind::Lost { seat });
-            self.occasion(Occasion::BallEnd, None);
-            self.next_turn();
-        }
     }
 
     fn emit(&mut self, kind: GameEventKind) {

@@ -73,6 +73,12 @@ impl Game {
         due.saturating_sub(ticks)
     }
 
+    /// Whether a ball is in play that does not merely wait at the plunger.
+    pub(super) fn has_ball_in_play(&self) -> bool {
+        matches!(self.play.phase, Phase::Play { serve_in: 0, .. })
+            && self.world.state().balls.iter().any(|ball| !self.waits(ball))
+    }
+
     fn look(&self, watched: u32) -> Look {
         let mut look = Look::default();
         for ball in &self.world.state().balls {

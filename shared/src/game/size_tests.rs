@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Action, Bot, Game, Input, Nudge, Phase, SEATS};
+use super::{Action, Bot, Game, HOUSE, Input, Nudge, Phase, SEATS};
 use crate::protocol::encode;
 use crate::table::Table;
 
@@ -36,6 +36,9 @@ fn the_state_of_four_players_with_three_balls_in_play_is_small() {
                 }
                 Phase::Play { .. } => {}
                 _ => inputs.push(Input { tick, seat: 0, action: Action::Start }),
+            }
+            if let Some(place) = (0..8).rev().find(|&place| game.can_crowd(place).is_ok()) {
+                inputs.push(Input { tick, seat: HOUSE, action: Action::Crowd(place) });
             }
             game.step(&inputs);
             if tick.is_multiple_of(16) {

@@ -2,10 +2,12 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::crowd::{CrowdState, check_crowd, sample_crowd};
 use super::input::SEATS;
 use super::tilt::Tilt;
 use crate::physics::{StateError, WorldState};
 use crate::rules::Score;
+use crate::table::Table;
 
 /// The most balls that a table's rules may give a player.
 pub(crate) const MOST_BALLS_A_GAME: u32 = 100;
@@ -91,11 +93,18 @@ pub struct Play {
     pub(super) lights: u64,
     /// How the player whose turn it is treats the table.
     pub(super) tilt: Tilt,
+    /// What the crowd does, at a table that has one.
+    pub(super) crowd: Option<CrowdState>,
 }
 
 impl Play {
-    /// Refuses a turn of a seat that does not exist.
-    pub(super) fn check(&self) -> Result<(), StateError> {
+    /// Of a table at which nothing has happened.
+    pub(super) fn new(table: &Table) -> Self {
+        Self { crowd: table.rules.crowd.as_ref().map(|_| CrowdState::default()), ..Self::default() }
+    }
+
+    /// Refuses a turn of a seat that does not exist, and a crowd that is not this table's.
+    pub(super) fn check(&self, table: &Table) -> Result<(), StateError> {
         match self.phase {
             Phase::Play { seat, .. } if usize::from(seat) >= SEATS => {
                 Err(StateError::Count { what: "seats", found: usize::from(seat) + 1, expected: SEATS })
@@ -114,7 +123,7 @@ impl Play {
                 Err(StateError::Number { what: "pause", index: 0 })
             }
             _ if self.tilt.same_touch > MOST_PAUSE => Err(StateError::Number { what: "tilt", index: 0 }),
-            _ => Ok(()),
+            phase => check_crowd(self.crowd, phase, table),
         }
     }
 }
@@ -127,6 +136,7 @@ pub(crate) fn sample_play(phase: Phase) -> Play {
         seats: [Seat { taken: true, playing: true, score }; SEATS],
         lights: 5,
         tilt: Tilt { warnings: 1, same_touch: 300, tilted: true },
+        crowd: Some(sample_crowd()),
     }
 }
 

@@ -65,7 +65,8 @@ impl Game {
         if let Phase::Play { extra, .. } = &mut self.play.phase {
             *extra = 0;
         }
-        // What holds a ball lets go of it.
+        // What the crowd did is over, and what holds a ball lets go of it.
+        self.end_crowd();
         for magnet in 0..self.table.scene.magnets.len() {
             self.world.switch(magnet as u16, false);
         }

@@ -279,7 +279,7 @@ impl World {
     }
 
     /// A target is gone, and with it what balls lay on.
-    fn target_fell(&mut self, target: u16, offset: f64) {
+    pub(super) fn target_fell(&mut self, target: u16, offset: f64) {
         self.forget_nexts(Instant { tick: self.state.tick, offset }, None);
         let gone = Presence::TargetUp(target);
         for ball in 0..self.state.balls.len() {

@@ -198,6 +198,8 @@ pub struct Scene {
     pub plungers: Vec<PlungerSpec>,
     /// How many targets can fall.
     pub targets: u16,
+    /// Those that are down at the start, one bit each.
+    pub targets_down: u64,
     /// Plates of spinners and gates.
     pub hinges: Vec<HingeSpec>,
     /// Saucers.
@@ -236,6 +238,11 @@ impl Scene {
         self.needs = needs;
         self.grid = needs.broad_phase.then(|| Grid::new(&self.colliders, self.largest_radius()));
         self
+    }
+
+    /// For each target, whether it stands while nothing has happened.
+    pub fn targets_at_start(&self) -> impl Iterator<Item = bool> {
+        (0..u32::from(self.targets)).map(|target| self.targets_down.checked_shr(target).unwrap_or(0) & 1 == 0)
     }
 
     /// Acceleration of a free ball on that floor, m/s^2.

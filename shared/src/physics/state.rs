@@ -111,7 +111,10 @@ impl WorldState {
             balls: Vec::new(),
             flippers: vec![FlipperState::default(); scene.flippers.len()],
             plungers: vec![PlungerState::default(); scene.plungers.len()],
-            targets: vec![TargetState::Up; usize::from(scene.targets)],
+            targets: scene
+                .targets_at_start()
+                .map(|stands| if stands { TargetState::Up } else { TargetState::Down })
+                .collect(),
             hinges: vec![HingeState::default(); scene.hinges.len()],
             magnets: scene.magnets.iter().map(|magnet| magnet.on).collect(),
             cabinet: CabinetState::default(),

@@ -287,6 +287,19 @@ impl World {
         }
     }
 
+    /// Takes a target down that stands or is about to; what lay on it falls.
+    pub fn lower(&mut self, target: u16) {
+        let state = &mut self.state.targets[usize::from(target)];
+        let stood = *state == TargetState::Up;
+        if *state != TargetState::Down {
+            *state = TargetState::Down;
+            self.wake();
+        }
+        if stood {
+            self.target_fell(target, 0.0);
+        }
+    }
+
     /// The first tick in which something may happen: a coil, a plunger or a target at work, a ball that follows a
     /// surface tick by tick, or a flight's next event.
     fn next_busy_tick(&mut self) -> u64 {

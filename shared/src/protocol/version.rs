@@ -130,6 +130,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         Action::Nudge(Nudge::Forward),
         Action::Release,
         Action::Forfeit,
+        Action::Crowd(3),
     ];
     let acts = actions.map(|action| encode(&ClientMessage::Act { tick: 70_000, action }));
     let others = [
@@ -267,6 +268,9 @@ fn sample_events() -> Vec<BoardEvent> {
         GameEventKind::Added { seat: 0 },
         GameEventKind::Lost { seat: 0 },
         GameEventKind::Forfeited { seat: 0 },
+        GameEventKind::Announced { action: 0 },
+        GameEventKind::Acted { action: 0 },
+        GameEventKind::Undone { action: 0 },
         GameEventKind::Rescued { by: Rescue::Kickers },
         GameEventKind::Rescued { by: Rescue::Relaunch },
         GameEventKind::Over,

@@ -71,6 +71,11 @@ pub fn run(
     }
 }
 
+/// Runs commands that nobody scores by: the crowd's.
+pub fn order(table: &Table, commands: &[Command], lights: &mut u64, world: &mut World, mut show: impl FnMut(Effect)) {
+    perform(table, commands, &mut Score::default(), lights, world, &mut show);
+}
+
 fn matches(trigger: &Trigger, occasion: Occasion, table: &Table, world: &World) -> bool {
     match (trigger, occasion) {
         (Trigger::Hit(elements), Occasion::Physics(kind)) => {
@@ -138,6 +143,11 @@ fn perform(
             Command::Raise(set) => {
                 for place in (0..table.targets.len()).filter(|place| set >> place & 1 == 1) {
                     world.raise(place as u16);
+                }
+            }
+            Command::Lower(set) => {
+                for place in (0..table.targets.len()).filter(|place| set >> place & 1 == 1) {
+                    world.lower(place as u16);
                 }
             }
             Command::Kick(set) => {

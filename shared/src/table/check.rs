@@ -38,6 +38,9 @@ pub(super) enum Spot<'a> {
     Rules,
     /// By its place among the rules.
     Rule(usize),
+    Crowd,
+    /// By its place among the crowd's actions.
+    CrowdAction(usize),
     Material(&'a str),
     Group(&'a str),
     /// By its place among the elements.
@@ -151,6 +154,10 @@ impl<'a> Context<'a> {
             Spot::Cabinet => &[Step::Field("cabinet")],
             Spot::Rules => &[Step::Field("rules")],
             Spot::Rule(place) => &[Step::Field("rules"), Step::Field("on"), Step::Item(place)],
+            Spot::Crowd => &[Step::Field("rules"), Step::Field("crowd")],
+            Spot::CrowdAction(place) => {
+                &[Step::Field("rules"), Step::Field("crowd"), Step::Field("actions"), Step::Item(place)]
+            }
             Spot::Material(name) => &[Step::Field("materials"), Step::Key(name)],
             Spot::Group(name) => &[Step::Field("groups"), Step::Key(name)],
             Spot::Element(place) => &[Step::Field("elements"), Step::Item(usize::from(place))],
@@ -163,6 +170,8 @@ impl<'a> Context<'a> {
             Spot::Cabinet => Some("cabinet".to_owned()),
             Spot::Rules => Some("rules".to_owned()),
             Spot::Rule(place) => Some(format!("rule {}", place + 1)),
+            Spot::Crowd => Some("crowd".to_owned()),
+            Spot::CrowdAction(place) => Some(format!("crowd action {}", place + 1)),
             Spot::StartBall(place) => Some(format!("ball {}", place + 1)),
             Spot::Material(name) | Spot::Group(name) => Some(name.to_owned()),
             Spot::Element(place) => Some(self.file.elements[usize::from(place)].name().to_owned()),

@@ -10,6 +10,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::accuracy::Accuracy;
+pub use super::format_crowd::{CrowdActionFile, CrowdFile};
 pub use super::format_mechanisms::{EdgeFile, GateFile, MagnetFile, SaucerFile, SpinnerFile};
 pub use super::format_rules::{ActionFile, EventFile, RuleFile, RulesFile};
 use super::unique;
@@ -353,6 +354,9 @@ pub struct TargetFile {
     pub to: Point,
     /// Normal speed of approach from which on it falls, or notices the hit, m/s.
     pub threshold: f64,
+    /// A drop target that is down until it is raised.
+    #[serde(default)]
+    pub down: bool,
     /// The floor that it stands on; 0 is the playfield.
     #[serde(default)]
     pub floor: u8,

@@ -2,8 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::format_crowd::CrowdFile;
+
 /// The rules: what happens when.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RulesFile {
     /// Balls a player has in a game.
@@ -12,6 +14,9 @@ pub struct RulesFile {
     pub max_multiplier: u32,
     /// In order: every rule whose event happened runs its actions.
     pub on: Vec<RuleFile>,
+    /// What who watches may do against who plays. Left out: nothing.
+    #[serde(default)]
+    pub crowd: Option<CrowdFile>,
 }
 
 /// One rule.
@@ -64,6 +69,8 @@ pub enum ActionFile {
     Unlight(String),
     /// A drop target, or a group of them, up again.
     Raise(String),
+    /// A drop target, or a group of them, down.
+    Lower(String),
     /// A saucer, or a group of them, throws out the ball that it holds.
     Kick(String),
     /// A magnet, or a group of them, on.

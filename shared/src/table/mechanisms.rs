@@ -32,6 +32,10 @@ impl Builder<'_> {
 
     pub(super) fn target(&mut self, index: u16, target: &TargetFile) -> Result<(), TableError> {
         self.speed(Spot::Element(index), "threshold", target.threshold)?;
+        if target.down {
+            let problem = "a Target always stands; a DropTarget would be right".to_owned();
+            return Err(self.context.error(Spot::Element(index), Some("down"), problem));
+        }
         self.face(index, target, Role::Standing { threshold: target.threshold }, Presence::Always)
     }
 

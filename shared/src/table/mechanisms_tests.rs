@@ -87,6 +87,13 @@ fn every_number_out_of_range_is_refused() {
 }
 
 #[test]
+fn a_target_that_always_stands_is_not_down() {
+    let error = refusal("threshold: 0.11", "threshold: 0.11, down: true");
+    assert_eq!((error.element.as_deref(), error.field.as_deref()), (Some("target"), Some("down")));
+    assert!(error.problem.contains("a DropTarget would be right"), "{error}");
+}
+
+#[test]
 fn a_plate_that_a_ball_could_lie_on_is_refused_with_the_lift_that_is_right() {
     // 0.9 of 0.08 kg x 0.8 m/s^2 x the lever.
     for (from, element, most) in

@@ -3,10 +3,12 @@
 
 mod accuracy;
 mod check;
+mod crowd;
 #[cfg(test)]
 mod description_tests;
 mod error;
 pub mod format;
+mod format_crowd;
 mod format_mechanisms;
 mod format_rules;
 pub(crate) mod locate;
@@ -26,6 +28,7 @@ use glam::DVec2;
 
 pub use accuracy::{Accuracy, Horizon, length_text, parse_tolerance};
 pub(crate) use check::{is_printable, unprintable};
+pub use crowd::{CrowdAction, CrowdRules, MOST_CROWD_ACTIONS};
 pub use error::TableError;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};

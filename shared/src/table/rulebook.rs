@@ -1,11 +1,12 @@
 //! The rules of a table with every name resolved to a number.
 
 use super::check::{Context, Spot, is_printable, unprintable};
+use super::crowd::{self, CrowdRules};
 use super::error::TableError;
 use super::format::{ActionFile, ElementFile, EventFile, RulesFile};
 
 /// The rules of a table.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct RuleBook {
     /// Balls a player has in a game.
     pub balls: u32,
@@ -15,6 +16,15 @@ pub struct RuleBook {
     pub rules: Vec<Rule>,
     /// Every line that a rule can put on the display.
     pub messages: Vec<String>,
+    /// What who watches may do against who plays.
+    pub crowd: Option<CrowdRules>,
+}
+
+impl RuleBook {
+    /// No rules at all.
+    pub(super) fn empty(balls: u32, max_multiplier: u32) -> Self {
+        Self { balls, max_multiplier, rules: Vec::new(), messages: Vec::new(), crowd: None }
+    }
 }
 
 /// When a trigger is met, its commands run in order.
@@ -66,6 +76,8 @@ pub enum Command {
     Unlight(u64),
     /// Targets up, one bit a target.
     Raise(u64),
+    /// Targets down.
+    Lower(u64),
     /// Saucers throw out what they hold, one bit a saucer.
     Kick(u64),
     /// Magnets on, one bit a magnet.
@@ -81,7 +93,7 @@ pub enum Command {
 /// Most rules of a table.
 const MOST_RULES: usize = 500;
 /// Most actions of a rule.
-const MOST_ACTIONS: usize = 32;
+pub(super) const MOST_ACTIONS: usize = 32;
 /// Most points of one action.
 const MOST_POINTS: u64 = 1_000_000_000;
 
@@ -146,8 +158,7 @@ pub(super) fn serves(rules: &RulesFile) -> bool {
 pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBook, TableError> {
     context.in_range(Spot::Rules, "balls", f64::from(rules.balls), 1.0, 100.0, "3")?;
     context.in_range(Spot::Rules, "max_multiplier", f64::from(rules.max_multiplier), 1.0, 100.0, "6")?;
-    let mut book =
-        RuleBook { balls: rules.balls, max_multiplier: rules.max_multiplier, rules: Vec::new(), messages: Vec::new() };
+    let mut book = RuleBook::empty(rules.balls, rules.max_multiplier);
     if rules.on.len() > MOST_RULES {
         let problem = format!("{} rules are more than {MOST_RULES}", rules.on.len());
         return Err(context.error(Spot::Rules, Some("on"), problem));
@@ -167,6 +178,9 @@ pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBo
         }
         book.rules.push(Rule { trigger, commands });
     }
+    if let Some(crowd) = &rules.crowd {
+        book.crowd = Some(crowd::resolve(context, crowd, &mut book.messages)?);
+    }
     Ok(book)
 }
 
@@ -184,7 +198,11 @@ fn trigger(context: &Context<'_>, event: &EventFile) -> Result<Trigger, String> 
     })
 }
 
-fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String>) -> Result<Command, String> {
+pub(super) fn command(
+    context: &Context<'_>,
+    action: &ActionFile,
+    messages: &mut Vec<String>,
+) -> Result<Command, String> {
     Ok(match action {
         ActionFile::Score(points) => Command::Score(points_in_range(*points)?),
         ActionFile::Bonus(points) => Command::Bonus(points_in_range(*points)?),
@@ -193,6 +211,7 @@ fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String
         ActionFile::Light(name) => Command::Light(bits(context, name, Kind::Light)?),
         ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
         ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
+        ActionFile::Lower(name) => Command::Lower(bits(context, name, Kind::Target)?),
         ActionFile::Kick(name) => Command::Kick(bits(context, name, Kind::Saucer)?),
         ActionFile::Attract(name) => Command::Attract(bits(context, name, Kind::Magnet)?),
         ActionFile::Release(name) => Command::Release(bits(context, name, Kind::Magnet)?),
@@ -208,7 +227,7 @@ fn command(context: &Context<'_>, action: &ActionFile, messages: &mut Vec<String
 }
 
 /// No single rule may make a score overflow within any number of years.
-fn points_in_range(points: u64) -> Result<u64, String> {
+pub(super) fn points_in_range(points: u64) -> Result<u64, String> {
     if points <= MOST_POINTS {
         Ok(points)
     } else {

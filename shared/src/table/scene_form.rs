@@ -216,7 +216,7 @@ pub(super) fn parse(name: &str, source: &str) -> Result<Table, TableError> {
         accuracy: scene.accuracy,
         scene: Arc::new(checked),
         ball_start: DVec2::ZERO,
-        rules: RuleBook { balls: 0, max_multiplier: 1, rules: Vec::new(), messages: Vec::new() },
+        rules: RuleBook::empty(0, 1),
         acts: vec![false; file.elements.len()],
         targets: Vec::new(),
         lights: Vec::new(),
@@ -340,7 +340,7 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
         materials,
         elements,
         groups: BTreeMap::new(),
-        rules: RulesFile { balls: 0, max_multiplier: 1, on: Vec::new() },
+        rules: RulesFile { balls: 0, max_multiplier: 1, on: Vec::new(), crowd: None },
     };
     (file, bounds)
 }

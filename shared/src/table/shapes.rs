@@ -38,6 +38,7 @@ pub(super) fn build(context: &Context<'_>, bare: &Bare) -> Result<Scene, TableEr
         flippers: Vec::new(),
         plungers: Vec::new(),
         targets: 0,
+        targets_down: 0,
         hinges: Vec::new(),
         saucers: Vec::new(),
         magnets: Vec::new(),
@@ -178,6 +179,8 @@ impl Builder<'_> {
                 self.speed(spot, "threshold", target.threshold)?;
                 let place = self.scene.targets;
                 self.scene.targets += 1;
+                // `check` allows at most 64 of them.
+                self.scene.targets_down |= u64::from(target.down) << place;
                 let role = Role::Target { index: place, threshold: target.threshold };
                 self.face(index, target, role, Presence::TargetUp(place))
             }

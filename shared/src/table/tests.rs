@@ -74,6 +74,19 @@ const GOOD: &str = r#"(
             (event: AllLit("light"), run: [Score(5)]),
             (event: BallEnd, run: [CollectBonus]),
         ],
+        crowd: (
+            energy_per_second: 0.5,
+            most_energy: 30.0,
+            points_per_ball: 20000,
+            actions: [
+                (
+                    name: "FENCE", cost: 9.0, announce: 2.5, lasts: 6.5, cool_down: 15.0, points: 2000,
+                    run: [Lower("drop")],
+                    undo: [Message("GONE")],
+                ),
+                (name: "DARK", cost: 1.0, announce: 1.5, lasts: 3.5, dims: true),
+            ],
+        ),
     ),
 )"#;
 
@@ -232,6 +245,37 @@ const CASES: &[Case] = &[
     case("Raise(\"drop\")", "Raise(\"nobody\")", "Raise", ("rule 1", "run"), "a DropTarget would be right"),
     case("Score(100)", "Score(2000000000)", "Score", ("rule 2", "run"), "more than 1000000000"),
     case("Message(\"HIT\")", "Message(\"\")", "Message", ("rule 2", "run"), "1 to 40 printable characters"),
+    // The crowd.
+    case(
+        "energy_per_second: 0.5",
+        "energy_per_second: 0.0",
+        "energy",
+        ("crowd", "energy_per_second"),
+        "1 would be right",
+    ),
+    case("energy_per_second: 0.5", "energy_per_second: NaN", "energy", ("crowd", "energy_per_second"), "NaN is not"),
+    case("most_energy: 30.0", "most_energy: 1801.0", "most", ("crowd", "most_energy"), "0 to 1800; 20 would be right"),
+    case("points_per_ball: 20000", "points_per_ball: 2000000000", "points", ("crowd", "points_per_ball"), "more than"),
+    case("\"FENCE\"", "\"DARK\"", "(name: \"DARK\"", ("crowd action 2", "name"), "names must differ"),
+    case("\"FENCE\"", "\"\"", "name", ("crowd action 1", "name"), "1 to 40 printable characters"),
+    case("cost: 9.0", "cost: 31.0", "cost", ("crowd action 1", "cost"), "8, or a larger `most_energy`, would be right"),
+    case("announce: 2.5", "announce: 0.0", "announce", ("crowd action 1", "announce"), "2 s would be right"),
+    case("lasts: 6.5", "lasts: 61.0", "lasts", ("crowd action 1", "lasts"), "6 s would be right"),
+    case(
+        "(\n                    name: \"FENCE\", cost: 9.0, announce: 2.5, lasts: 6.5,",
+        "(\n                    name: \"FENCE\", cost: 9.0, announce: 2.5,",
+        "(",
+        ("crowd action 1", "lasts"),
+        "it would be over at once; 6 s would be right",
+    ),
+    case("lasts: 3.5, ", "", "(name", ("crowd action 2", "lasts"), "it would be over at once; 6 s would be right"),
+    case("cool_down: 15.0", "cool_down: -1.0", "cool", ("crowd action 1", "cool_down"), "15 s would be right"),
+    case("points: 2000,", "points: 2000000000,", "points", ("crowd action 1", "points"), "more than 1000000000"),
+    case("Lower(\"drop\")", "Lower(\"light\")", "Lower", ("crowd action 1", "run"), "a DropTarget would be right"),
+    case("Lower(\"drop\")", "Score(5)", "Score", ("crowd action 1", "run"), "Raise, Lower, Kick"),
+    case("Message(\"GONE\")", "Serve", "Serve", ("crowd action 1", "undo"), "Raise, Lower, Kick"),
+    case(", dims: true", "", "(name", ("crowd action 2", "run"), "`dims: true`, would be right"),
+    case("dims: true", "dims: true, glow: 3", "(name", ("DARK", "glow"), "expected one of `name`"),
     case("Message(\"HIT\")", "Shout(\"HIT\")", "Shout", ("", ""), "expected one of `Score`"),
 ];
 
@@ -321,6 +365,23 @@ fn too_many_lights_targets_elements_points_or_bytes_are_refused() {
     let error = error_of(&(GOOD.to_owned() + &" ".repeat(MOST_TEXT)));
     assert_eq!(error.line, 0);
     assert!(error.problem.contains("more than the 262144 that it may have"), "{error}");
+}
+
+#[test]
+fn a_crowd_has_one_action_up_to_eight() {
+    let line = line_at(GOOD, GOOD.find("actions: [").unwrap_or_default());
+    let (before, rest) = GOOD.split_once("actions: [").unwrap_or_default();
+    let (_, after) = rest.split_once("\n            ],").unwrap_or_default();
+    let with = |count: usize| {
+        let action = |place| format!("(name: \"{place}\", cost: 1.0, announce: 1.0, run: [Raise(\"drop\")]),");
+        format!("{before}actions: [{}],{after}", (0..count).map(action).collect::<String>())
+    };
+    for count in [0, 9] {
+        let error = error_of(&with(count));
+        assert_eq!((error.line, error.field.as_deref()), (line, Some("actions")), "{error}");
+        assert_eq!(error.problem, format!("{count} actions; 1 to 8 would be right"));
+    }
+    assert!(Table::parse("good.ron", &with(8)).is_ok());
 }
 
 #[test]

@@ -243,7 +243,7 @@ impl<'a, R: Real> Solver<'a, R> {
             ending: Ending::Time,
             steps: 0,
         };
-        let standing = vec![true; usize::from(scene.targets)];
+        let standing: Vec<_> = scene.targets_at_start().collect();
         Self { scene, arithmetic, bodies, standing, solution }
     }
 

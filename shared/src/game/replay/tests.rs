@@ -71,6 +71,8 @@ fn made_up() -> Replay {
             input(0, 1, Action::Start),
             input(17, 1, Action::Flipper { right: true, pressed: false }),
             input(17, 1, Action::Pull(65_535)),
+            input(17, 1, Action::Forfeit),
+            input(17, 255, Action::Crowd(3)),
             input(249, 255, Action::Release),
         ],
     })
@@ -92,6 +94,8 @@ const MADE_UP: &str = r#"(
         (tick: 0, seat: 1, action: Start),
         (tick: 17, seat: 1, action: Flipper(right: true, pressed: false)),
         (tick: 17, seat: 1, action: Pull(65535)),
+        (tick: 17, seat: 1, action: Forfeit),
+        (tick: 17, seat: 255, action: Crowd(3)),
         (tick: 249, seat: 255, action: Release),
     ],
 )
@@ -208,17 +212,17 @@ fn what_is_wrong_with_a_text_is_told_with_its_line() {
         ("ffffffffffffffff", "FFFFFFFFFFFFFFFF", 9, "16 digits"),
         ("ffffffffffffffff", "+fffffffffffffff", 9, "16 digits"),
         ("\"ffffffffffffffff\"", "18446744073709551615", 9, "xpected string"),
-        ("tick: 249", "tick: 16", 17, "an input at tick 16 after one at 17: sorted by tick would be right"),
-        ("tick: 249", "tick: 250", 17, "an input at tick 250 of a replay that ends at 250"),
+        ("tick: 249", "tick: 16", 19, "an input at tick 16 after one at 17: sorted by tick would be right"),
+        ("tick: 249", "tick: 250", 19, "an input at tick 250 of a replay that ends at 250"),
         ("tick: 100", "tick: 250", 10, "a checkpoint at tick 250 after one at 250"),
         ("tick: 250", "tick: 249", 10, "the last checkpoint is at tick 249: 250, the end, would be right"),
         ("ticks: 250", "ticks: 251", 10, "the last checkpoint is at tick 250: 251, the end, would be right"),
         ("ticks: 250", "ticks: 100000001", 7, "100000001 ticks are more than the 100000000 that a replay may have"),
         ("ticks: 250", "ticks: 18446744073709551616", 7, "out of bounds"),
         ("ticks: 250", "ticks: -1", 7, ""),
-        ("    seed: 18446744073709551615,\n", "", 18, "seed"),
+        ("    seed: 18446744073709551615,\n", "", 20, "seed"),
         ("seed: 1", "seed: 1, seed: 1", 6, "seed"),
-        ("\n)\n", "\n)\n(", 19, "railing"),
+        ("\n)\n", "\n)\n(", 21, "railing"),
     ];
     for (from, to, line, problem) in cases {
         let text = MADE_UP.replacen(from, to, 1);
@@ -250,9 +254,9 @@ fn more_than_a_replay_may_have_is_refused() {
         let inputs = "(tick:0,seat:0,action:Sit),".repeat(count);
         MADE_UP.replace("        (tick: 0, seat: 1, action: Sit),", &inputs)
     };
-    assert_eq!(read(&with_inputs(MOST_INPUTS - 4)).inputs().len(), MOST_INPUTS);
-    let (line, problem) = refused(&with_inputs(MOST_INPUTS - 3));
-    assert!(line == 17 && problem.contains("at most 131072 items"), "{line}: {problem}");
+    assert_eq!(read(&with_inputs(MOST_INPUTS - 6)).inputs().len(), MOST_INPUTS);
+    let (line, problem) = refused(&with_inputs(MOST_INPUTS - 5));
+    assert!(line == 19 && problem.contains("at most 131072 items"), "{line}: {problem}");
 
     let checkpoint = "(tick:0,digest:\"0000000000000000\"),";
     let text = MADE_UP.replace("checkpoints: [", &format!("checkpoints: [{}", checkpoint.repeat(MOST_CHECKPOINTS)));

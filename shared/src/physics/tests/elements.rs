@@ -125,6 +125,35 @@ fn a_ball_that_lay_on_a_target_falls_with_it() {
 }
 
 #[test]
+fn a_target_that_is_lowered_lets_go_of_what_lay_on_it() {
+    let target = "DropTarget(name: \"t\", material: \"dead\", from: (0.4, 0.5), to: (0.6, 0.5), threshold: 100.0),";
+    let mut world = world_with(DVec2::new(0.0, -1.0), target);
+    launch(&mut world, DVec2::new(0.45, 0.5 + RADIUS), DVec2::ZERO);
+    run(&mut world, 100);
+    assert!(matches!(support(&world, 0), Support::Line(_)), "the target holds it");
+    world.lower(0);
+    assert_eq!((support(&world, 0), world.state.targets[0]), (Support::None, TargetState::Down));
+    // One that is about to rise is down again, too.
+    world.raise(0);
+    world.lower(0);
+    run(&mut world, 1500);
+    assert!(world.state.balls.is_empty() && world.state.targets[0] == TargetState::Down);
+}
+
+#[test]
+fn a_target_that_is_down_at_the_start_is_not_there_until_it_is_raised() {
+    let mut world = world_with(FREE, &TARGET.replace("0.11)", "100.0, down: true)"));
+    assert_eq!(world.state.targets, [TargetState::Down]);
+    launch(&mut world, DVec2::new(0.45, 0.5), DVec2::new(1.0, 0.0));
+    assert_eq!(run(&mut world, 100), []);
+    world.clear_balls();
+    world.raise(0);
+    run(&mut world, 1);
+    launch(&mut world, DVec2::new(0.45, 0.5), DVec2::new(1.0, 0.0));
+    assert_eq!(run(&mut world, 100), [EventKind::Touched { element: 0, speed: 1.0 }], "nothing fells it");
+}
+
+#[test]
 fn a_sensor_counts_every_pass_once() {
     let sensor = "Rollover(name: \"r\", from: (0.3, 0.5), to: (0.7, 0.5)),";
     for speed in [0.01, 0.333, 1.0, 7.0, 20.0] {
