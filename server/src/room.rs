@@ -201,7 +201,7 @@ impl Room {
     }
 
     fn crowd_actions(&self) -> usize {
-        0
+        self.config.table.rules.crowd.as_ref().map_or(0, |crowd| crowd.actions.len())
     }
 
     /// 4. Counts and logs what happened in the tick.

@@ -55,8 +55,8 @@ impl Room {
     pub(super) fn count_votes(&mut self) {
         let (tick, actions) = (self.now(), self.crowd_actions());
         let game = &self.games[0];
-        if let Some(_action) = self.votes.count(tick, actions, |_action| game.tick() > 0) {
-            let input = Input { tick, seat: HOUSE, action: Action::Forfeit };
+        if let Some(action) = self.votes.count(tick, actions, |action| game.can_crowd(action).is_ok()) {
+            let input = Input { tick, seat: HOUSE, action: Action::Crowd(action) };
             self.controls.push(BoardInput { board: 0, input });
         }
     }

@@ -7,11 +7,10 @@ use super::snapshot::{Change, Full};
 use super::stream::Stream;
 use crate::game::{Action, SEATS};
 use crate::math::bounded;
+use crate::table::MOST_CROWD_ACTIONS;
 
 /// Longest name of a player, characters.
 pub const MOST_NAME: usize = 24;
-/// Most actions that a table can give the crowd.
-pub const MOST_CROWD_ACTIONS: usize = 16;
 /// Most names of a line that a roster tells.
 pub const MOST_IN_LINE: usize = 32;
 

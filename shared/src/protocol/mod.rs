@@ -21,8 +21,7 @@ pub use frame::{FrameError, decode, decode_from_server, decode_greeting, encode,
 pub use framing::{Deframer, FramingError, framed, length_prefix};
 pub use inputs::{BoardInput, Inputs, MOST_INPUTS};
 pub use message::{
-    ClientMessage, Hello, MOST_CROWD_ACTIONS, MOST_IN_LINE, MOST_NAME, Mode, Role, Roster, ServerMessage, Tally,
-    Welcome, check_name,
+    ClientMessage, Hello, MOST_IN_LINE, MOST_NAME, Mode, Role, Roster, ServerMessage, Tally, Welcome, check_name,
 };
 pub use snapshot::{BoardEvent, Boards, Change, Full, MOST_EVENTS, Patch, digest_of_room};
 pub use stream::{Form, RATES, Stream};
