@@ -162,7 +162,7 @@ struct Running {
 impl Running {
     fn start(program: &Path, arguments: &[&str]) -> Outcome<Self> {
         let mut command = pinned(program, "0");
-        let child = command.args(arguments).env("RUST_LOG", "warn").stdout(Stdio::piped()).spawn()?;
+        let child = command.args(arguments).env("RUST_LOG", "error").stdout(Stdio::piped()).spawn()?;
         let mut running = Self { child, address: SocketAddr::from(([127, 0, 0, 1], 0)) };
         let output = running.child.stdout.take().ok_or("its output is piped")?;
         let mut line = String::new();

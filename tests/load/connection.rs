@@ -124,7 +124,7 @@ impl Connection {
         self.stage = Stage::Greeting;
         if shared.raw {
             self.mind = Mind::Spectator(Spectator::default());
-            self.stage = Stage::Begun;
+            self.stage = Stage::In;
             return Ok(());
         }
         let (name, role, stream) = match &self.kind {

@@ -159,7 +159,7 @@ impl Fleet {
             for _ in 0..pace.due(now) {
                 // The first one finds out whether there is a server.
                 let alone = self.begun == 0 && self.joining > 0 && !raw;
-                if self.joining < MOST_JOINING && !alone {
+                if (self.joining < MOST_JOINING || raw) && !alone {
                     let Some(kind) = kinds.next() else { break };
                     self.joining += 1;
                     self.open(kind);
