@@ -69,11 +69,11 @@ pub(crate) struct Wire {
 
 impl Wire {
     pub(crate) async fn open(server: &Server) -> Self {
-        Self::to(server.address).await
+        Self::open_at(server.address).await
     }
 
-    /// The same, to any address.
-    pub(crate) async fn to(address: SocketAddr) -> Self {
+    /// The same by way of something else.
+    pub(crate) async fn open_at(address: SocketAddr) -> Self {
         Self::over(TcpStream::connect(address).await.expect("connects"))
     }
 

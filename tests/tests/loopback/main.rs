@@ -15,6 +15,8 @@ mod modes;
 mod nudge;
 /// One player: from the first key to game over.
 mod play;
+/// A relay that does to bytes what networks do.
+mod proxy;
 /// Seats, turns and the line.
 mod seats;
 /// The end: a clean stop tells everybody.
@@ -23,3 +25,5 @@ mod stop;
 mod streams;
 /// Watching, joining late, lagging behind.
 mod watch;
+/// Bad networks: what they do to one client, they do to nobody else.
+mod weather;
