@@ -99,7 +99,8 @@ async fn a_cut_in_mid_frame_ends_that_session_and_frees_the_seat() {
     let server = Server::start(quiet()).await;
     let mut ann = Client::play(&server, "Ann").await;
     ann.until("she is seated", |ann| ann.place == Some(0)).await;
-    let hello = encode_greeting(&Hello { name: "Eve".to_owned(), role: Role::Play, stream: Stream::PLAYER }).len() as u64;
+    let hello =
+        encode_greeting(&Hello { name: "Eve".to_owned(), role: Role::Play, stream: Stream::PLAYER }).len() as u64;
     for beyond in 15..18 {
         let cut = Path { cut_after: Some(hello + beyond), ..Path::default() };
         let proxy = Proxy::start(server.address, Weather { to_server: cut, ..Weather::default() }).await;
