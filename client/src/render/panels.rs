@@ -133,6 +133,20 @@ mod tests {
     use super::super::layout::PixelSize;
     use super::*;
 
+    /// Name and points of each seat at least share a line, and no line is drawn over another: see the display of scores.
+    #[test]
+    fn the_scores_of_four_have_room_in_every_usual_window() {
+        for (width, height) in
+            [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080), (3840, 2160), (900, 1400)]
+        {
+            let panels = Panels::new(&Layout::new(PixelSize { width, height }, vec2(0.514, 1.067)));
+            let lines = f32::from(USUAL_SEATS) * f32::from(panels.small * (ROWS + 4));
+            let margin = (panels.padding * 1.2).round();
+            let room = panels.scores.h - 2.0 * margin;
+            assert!(lines <= room + f32::from(panels.small * 4) + 1.0, "{width} x {height}: {lines} in {room}");
+        }
+    }
+
     #[test]
     fn parts_are_inside_their_panels() {
         let sides = [1, 200, 480, 600, 720, 900, 1280, 1920, 4000];

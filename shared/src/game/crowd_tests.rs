@@ -131,9 +131,11 @@ fn lights_are_dimmed_for_as_long_as_they_should() {
     assert_eq!(dimmed, 8000);
 }
 
+type End = fn(&mut Game);
+
 #[test]
 fn a_turn_s_end_or_a_tilt_undoes_everything_and_a_lost_ball_pays_the_crowd() {
-    let ends: [(&str, fn(&mut Game)); 3] = [
+    let ends: [(&str, End); 3] = [
         ("given up", |game| drop(act(game, 0, Action::Forfeit))),
         ("lost", lose_ball),
         ("tilted", |game| {
@@ -327,7 +329,7 @@ fn a_crowd_that_cannot_be_is_refused() {
     ];
     for (place, edit) in edits.into_iter().enumerate() {
         let mut state = game.state();
-        state.play.crowd.as_mut().map(edit);
+        state.play.crowd.iter_mut().for_each(edit);
         assert!(Game::new(classic()).restore(state).is_err(), "edit {place}");
     }
     let mut state = game.state();
@@ -335,7 +337,7 @@ fn a_crowd_that_cannot_be_is_refused() {
     assert!(Game::new(classic()).restore(state).is_err(), "nothing lasts beyond a game");
     // What is as large as can be harms nobody.
     let mut state = game.state();
-    state.play.crowd.as_mut().map(|crowd| crowd.points = u64::MAX);
+    state.play.crowd.iter_mut().for_each(|crowd| crowd.points = u64::MAX);
     assert_eq!(game.restore(state), Ok(()));
     wait(&mut game, 3000);
     lose_ball(&mut game);

@@ -31,6 +31,7 @@ fn every_element_and_rule_in_the_description_is_a_good_one() {
     let elements = examples("\n## Elements");
     let rules = section("\n## Rules").lines().filter(|line| line.starts_with("    (event:"));
     let rules = rules.collect::<Vec<_>>().join("\n");
+    let crowd = examples("\n## The crowd");
     let whole = section("\n## A whole table");
     let table = whole.find("    (").map(|at| &whole[at..]).unwrap_or_default();
     // Room for all of them, and every material that they are of.
@@ -43,12 +44,14 @@ fn every_element_and_rule_in_the_description_is_a_good_one() {
             "materials: { \"plastic\": (restitution: 0.3), \"rail\": (restitution: 0.5, friction: 0.1),",
         )
         .replace("elements: [", &format!("elements: [\n{elements}"))
-        .replace("on: [", &format!("on: [\n{rules}\n"));
+        .replace("on: [", &format!("{crowd}\n on: [\n{rules}\n"));
     match Table::parse("README.md", &table) {
         Ok(table) => {
             assert_eq!(table.file.cabinet, Some(CabinetFile::default()), "it states the defaults");
             assert_eq!((table.scene.magnets.len(), table.scene.hinges.len(), table.scene.saucers.len()), (1, 2, 1));
             assert!(table.scene.needs.floors && table.file.rules.on.len() == 5);
+            assert_eq!(table.rules.crowd.map(|crowd| crowd.actions.len()), Some(3));
+            assert_eq!((table.scene.targets, table.scene.targets_down), (1, 1));
         }
         Err(error) => panic!("{error}"),
     }
