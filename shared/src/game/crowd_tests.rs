@@ -58,6 +58,7 @@ fn place_ball(game: &mut Game, position: DVec2, velocity: DVec2) {
     let ball = &mut state.world.balls[0];
     ball.flight.start = Instant::start_of(tick);
     (ball.flight.position, ball.flight.velocity) = (position, velocity);
+    ball.flight.acceleration = game.table().scene.gravity;
     (ball.support, ball.past, ball.spin) = (Support::None, None, 0.0);
     assert_eq!(game.restore(state), Ok(()));
 }
