@@ -1,7 +1,7 @@
 //! The lobby: who is connected, who has which place, who is next in line, who stays after a game. It decides; the room
 //! turns its decisions into inputs of the game.
 
-use std::collections::{BTreeMap, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use shared::game::{Action, SEATS};
 use shared::protocol::{MOST_IN_LINE, Mode, Roster, ServerMessage};
@@ -15,8 +15,6 @@ struct Client {
     state: SessionState,
     /// It has, or had, a place.
     had_place: bool,
-    /// It has not been told yet what it is.
-    is_stale: bool,
 }
 
 /// Who has a place.
@@ -58,6 +56,8 @@ pub(crate) struct Lobby {
     /// The bot plays against whoever is alone, where each has a board.
     has_opponent: bool,
     clients: BTreeMap<u32, Client>,
+    /// Who has not been told yet what they are.
+    untold: BTreeSet<u32>,
     places: [Option<Sitter>; SEATS],
     line: VecDeque<u32>,
     /// Who won the last game and stayed: the client, and how often in a row.
@@ -76,6 +76,7 @@ impl Lobby {
             count: places.clamp(1, SEATS),
             has_opponent: has_bot && mode == Mode::HeadToHead && places > 1,
             clients: BTreeMap::new(),
+            untold: BTreeSet::new(),
             places: [None; SEATS],
             line: VecDeque::new(),
             champion: None,
@@ -86,7 +87,8 @@ impl Lobby {
     /// A client came in; it watches until it asks for more.
     pub(crate) fn add(&mut self, id: u32, name: String) {
         let state = SessionState::Watching;
-        self.clients.insert(id, Client { name, state, had_place: false, is_stale: true });
+        self.clients.insert(id, Client { name, state, had_place: false });
+        self.untold.insert(id);
         self.note(News::Count);
     }
 
@@ -138,7 +140,7 @@ impl Lobby {
         self.line.retain(|&waiting| waiting != id);
         self.set_state(id, SessionState::Watching);
         // Whoever asks is told, even if nothing changed.
-        self.clients.entry(id).and_modify(|client| client.is_stale = true);
+        self.untold.insert(id);
         match state {
             SessionState::Seated(place) => {
                 let mut deeds = vec![self.vacate(place)];
@@ -169,6 +171,7 @@ impl Lobby {
     pub(crate) fn remove(&mut self, id: u32, game: GameView) -> Vec<Deed> {
         let deeds = self.leave(id, game);
         if self.clients.remove(&id).is_some() {
+            self.untold.remove(&id);
             self.note(News::Count);
         }
         deeds
@@ -322,15 +325,15 @@ impl Lobby {
     /// What has to be told to single clients: what they are. It counts as told.
     pub(crate) fn take_told(&mut self) -> Vec<(u32, ServerMessage)> {
         let mut told = Vec::new();
-        for (&id, client) in self.clients.iter_mut().filter(|(_, client)| client.is_stale) {
-            client.is_stale = false;
-            let place = match client.state {
+        for client in std::mem::take(&mut self.untold) {
+            let Some((state, _)) = self.state(client) else { continue };
+            let place = match state {
                 SessionState::Seated(place) => Some(place),
                 SessionState::Watching | SessionState::InLine => None,
             };
-            let line = self.line.iter().position(|&waiting| waiting == id);
+            let line = self.line.iter().position(|&waiting| waiting == client);
             let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
-            told.push((id, ServerMessage::You { client: id, place, line }));
+            told.push((client, ServerMessage::You { client, place, line }));
         }
         told
     }
@@ -341,18 +344,14 @@ impl Lobby {
         {
             client.had_place |= matches!(state, SessionState::Seated(_));
             client.state = state;
-            client.is_stale = true;
+            self.untold.insert(id);
             self.note(News::Names);
         }
     }
 
     /// Whoever waits has another place in the line now.
     fn note_line(&mut self) {
-        for id in &self.line {
-            if let Some(client) = self.clients.get_mut(id) {
-                client.is_stale = true;
-            }
-        }
+        self.untold.extend(&self.line);
     }
 
     fn note(&mut self, news: News) {
