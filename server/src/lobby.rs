@@ -324,16 +324,24 @@ impl Lobby {
 
     /// What has to be told to single clients: what they are. It counts as told.
     pub(crate) fn take_told(&mut self) -> Vec<(u32, ServerMessage)> {
+        let mut untold = std::mem::take(&mut self.untold);
         let mut told = Vec::new();
-        for client in std::mem::take(&mut self.untold) {
-            let Some((state, _)) = self.state(client) else { continue };
-            let place = match state {
-                SessionState::Seated(place) => Some(place),
-                SessionState::Watching | SessionState::InLine => None,
+        if untold.is_empty() {
+            return told;
+        }
+        for (place, &client) in (1_u64..).zip(&self.line) {
+            if untold.remove(&client) {
+                let line = Some(u16::try_from(place).unwrap_or(u16::MAX));
+                told.push((client, ServerMessage::You { client, place: None, line }));
+            }
+        }
+        for client in untold {
+            let place = match self.state(client) {
+                Some((SessionState::Seated(place), _)) => Some(place),
+                Some(_) => None,
+                None => continue,
             };
-            let line = self.line.iter().position(|&waiting| waiting == client);
-            let line = line.map(|place| u16::try_from(place + 1).unwrap_or(u16::MAX));
-            told.push((client, ServerMessage::You { client, place, line }));
+            told.push((client, ServerMessage::You { client, place, line: None }));
         }
         told
     }
