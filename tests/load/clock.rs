@@ -2,12 +2,12 @@
 //!
 //! A pong says at which tick the server was when it answered. The moment `a` at which the pong arrives is therefore no
 //! earlier than the one at which the world was at that tick, so tick 0 was at `a - tick * seconds_per_tick` or before: each pong
-//! gives a bound, and the least of many is the tightest. What it is too late by is how long that pong was on its way,
-//! which half of the shortest round trip stands for. The error is at most that half, tens of microseconds on one machine, and
-//! how much of a tick had passed when the luckiest ping was answered.
+//! gives a bound, and the least of many is the tightest. It is too late by how long the luckiest pong was on its way back and by how
+//! much of a tick had passed when it was written: tens of microseconds on one machine, and less than its round trip, whatever
+//! held up the ping on its way there. By so much frames may have been later than is told.
 //!
 //! Bounds are taken from the pongs within a second of what they are applied to. So a clock that drifts does no harm; where the
-//! server stalled and gave time up, frames of the second after are told to be later than they were, never earlier.
+//! server stalled and gave time up, frames of the second after are told to be later than they were.
 //!
 //! Frames are therefore noted by their own ticks, and only judged when all pongs are known.
 
@@ -25,8 +25,6 @@ const MOST_IN_WINDOW: usize = 100_000;
 struct Window {
     /// The least `arrival - tick * seconds_per_tick` of its pongs, microseconds.
     bound: Option<f64>,
-    /// The shortest round trip.
-    trip: Option<f64>,
     arrivals: Vec<i32>,
     moments_before: Vec<i32>,
 }
@@ -38,6 +36,8 @@ pub(crate) struct Clock {
     tick_microseconds: f64,
     /// Numbers are small if they are noted relative to the first pong's bound.
     base: Option<f64>,
+    /// Round trips.
+    trips: Vec<i32>,
 }
 
 /// Milliseconds.
@@ -65,11 +65,10 @@ impl Clock {
     /// A pong with this tick came at `now`; its ping was sent at `sent`. Microseconds.
     pub(crate) fn hear_pong(&mut self, sent: u64, now: u64, tick: u64) {
         let bound = now as f64 - tick as f64 * self.tick_microseconds;
-        let trip = now.saturating_sub(sent) as f64;
+        self.trips.push((now.saturating_sub(sent) as f64 / UNIT) as i32);
         self.base.get_or_insert(bound);
         let window = self.window(now);
         window.bound = Some(window.bound.map_or(bound, |least| least.min(bound)));
-        window.trip = Some(window.trip.map_or(trip, |least| least.min(trip)));
     }
 
     /// A frame that leads to tick `to` came at `now`, and the one before led to `before`.
@@ -82,6 +81,16 @@ impl Clock {
             window.arrivals.push(note(to));
             window.moments_before.extend(before.map(note));
         }
+    }
+
+    /// Round trips count from here on.
+    pub(crate) fn begin(&mut self) {
+        self.trips.clear();
+    }
+
+    /// How long pings were on their way there and back.
+    pub(crate) fn trips(&self) -> Spread {
+        spread(self.trips.clone())
     }
 
     fn window(&mut self, now: u64) -> &mut Window {
@@ -108,9 +117,7 @@ impl Clock {
     fn origin(&self, place: usize) -> Option<f64> {
         let around = |reach: usize| {
             let near = &self.windows[place.saturating_sub(reach)..(place + reach + 1).min(self.windows.len())];
-            let bound = near.iter().filter_map(|window| window.bound).reduce(f64::min)?;
-            let trip = near.iter().filter_map(|window| window.trip).reduce(f64::min)?;
-            Some(bound - trip / 2.0)
+            near.iter().filter_map(|window| window.bound).reduce(f64::min)
         };
         (AROUND..self.windows.len() + AROUND).find_map(around)
     }

@@ -112,6 +112,7 @@ impl Fleet {
             self.turn()?;
         }
         self.shared.counts.begin();
+        self.shared.clock.begin();
         let start = self.now();
         let before = Usages::now(self.arguments.process);
         let mut churn = Pace::new(f64::from(self.arguments.churn), start);

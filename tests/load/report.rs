@@ -69,6 +69,7 @@ pub(crate) struct Report {
     full_bytes: f64,
     latency_ms: Spread,
     behind_ms: Spread,
+    ping_ms: Spread,
     lost: u64,
     refused: u64,
     churned: u64,
@@ -85,6 +86,8 @@ pub(crate) struct Report {
 #[derive(Debug, Serialize)]
 struct ProcessReport {
     cpu_seconds: f64,
+    /// For which its threads waited for a core: beside others, the machine is what was measured.
+    waited_seconds: f64,
     /// Microseconds of processor for each frame that came to a spectator.
     cpu_us_per_frame: f64,
     memory_kib_at_start: u64,
@@ -126,6 +129,7 @@ impl Report {
             let cpu_seconds = end.cpu_seconds - start.cpu_seconds;
             ProcessReport {
                 cpu_seconds: rounded(cpu_seconds),
+                waited_seconds: rounded(end.waited_seconds - start.waited_seconds),
                 cpu_us_per_frame: rounded(ratio(cpu_seconds * 1e6, counts.frames as f64)),
                 memory_kib_at_start: start.memory_kib,
                 memory_kib_at_end: end.memory_kib,
@@ -147,6 +151,7 @@ impl Report {
             full_bytes: rounded(ratio(counts.full_bytes as f64, counts.fulls as f64)),
             latency_ms,
             behind_ms,
+            ping_ms: clock.trips(),
             lost: counts.lost,
             refused: counts.refused,
             churned: counts.churned,

@@ -39,6 +39,6 @@ fn spectators_and_a_bot_at_the_real_server() {
     }
     assert!(hostile["churned"].as_u64() > Some(30) && hostile["malformed_sent"].as_u64() > Some(30), "{hostile}");
     drop(stop);
-    let ended = runtime.block_on(tokio::time::timeout(Duration::from_secs(20), served));
+    let ended = runtime.block_on(async { tokio::time::timeout(Duration::from_secs(20), served).await });
     ended.expect("in time").expect("no panic").expect("no error");
 }
