@@ -356,7 +356,7 @@ impl Fleet {
         let now = self.now();
         let mut due: Vec<usize> = Vec::new();
         let [spectators, bots, probe] = &mut self.ping_pace;
-        spectators.set_rate(self.connections.len() as f64 / PING_SECONDS, now);
+        spectators.set_rate(self.connections.len() as f64 / PING_SECONDS);
         for _ in 0..spectators.due(now) {
             self.pinged = (self.pinged + 1) % self.connections.len().max(1);
             due.push(self.pinged);

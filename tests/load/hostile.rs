@@ -9,27 +9,26 @@ use shared::protocol::{ClientMessage, Hello, Role, Stream, encode, encode_greeti
 pub(crate) struct Pace {
     rate: f64,
     since: u64,
-    done: u64,
+    owed: f64,
 }
 
 impl Pace {
     /// From `now` on, in microseconds.
     pub(crate) fn new(rate: f64, now: u64) -> Self {
-        Self { rate, since: now, done: 0 }
+        Self { rate, since: now, owed: 0.0 }
     }
 
-    /// From `now` on another rate.
-    pub(crate) fn set_rate(&mut self, rate: f64, now: u64) {
-        if rate != self.rate {
-            *self = Self::new(rate, now);
-        }
+    /// From now on another rate. What is owed stays owed, or a rate that changes all the time would make nothing due.
+    pub(crate) fn set_rate(&mut self, rate: f64) {
+        self.rate = rate;
     }
 
     /// How many are due since the last time. What is more than a tenth of a second late is given up.
     pub(crate) fn due(&mut self, now: u64) -> u64 {
-        let all = (now.saturating_sub(self.since) as f64 * self.rate / 1e6) as u64;
-        let due = all.saturating_sub(self.done);
-        self.done = all.max(self.done);
+        self.owed += now.saturating_sub(self.since) as f64 * self.rate / 1e6;
+        self.since = now;
+        let due = self.owed as u64;
+        self.owed -= due as f64;
         due.min((self.rate / 10.0) as u64 + 1)
     }
 }
@@ -72,10 +71,23 @@ mod tests {
     #[test]
     fn paces_keep_their_rate_and_forget_a_stall() {
         let mut pace = Pace::new(100.0, 5_000_000);
-        let due: u64 = (0..1000).map(|n| pace.due(5_000_000 + n * 1000)).sum();
-        assert_eq!(due, 99);
+        let due: u64 = (1..=1000).map(|n| pace.due(5_000_000 + n * 1000)).sum();
+        assert!((99..=100).contains(&due), "{due}");
         assert_eq!(pace.due(60_000_000), 11);
         assert_eq!(pace.due(60_000_000), 0);
+    }
+
+    /// It did not: thousands were not pinged while others joined, and the server ended them.
+    #[test]
+    fn a_rate_that_changes_all_the_time_is_kept_too() {
+        let mut pace = Pace::new(0.0, 0);
+        let due: u64 = (1..=1000)
+            .map(|n| {
+                pace.set_rate(100.0 + n as f64 / 1000.0);
+                pace.due(n * 1000)
+            })
+            .sum();
+        assert!((99..=101).contains(&due), "{due}");
     }
 
     #[test]
