@@ -44,6 +44,21 @@ async fn a_player_far_away_works_the_controls() {
 }
 
 #[tokio::test]
+async fn the_first_picture_takes_one_round_trip() {
+    let server = Server::start(quiet()).await;
+    let path = Path { delay: Duration::from_millis(200), ..Path::default() };
+    let proxy = Proxy::start(server.address, Weather::both(path, 1)).await;
+    let began = Instant::now();
+    let mut ann = Client::join(Wire::open_at(proxy.address).await, "Ann", Role::Watch, Stream::SPECTATOR).await;
+    ann.snapshot().await;
+    let took = began.elapsed();
+    // A second one would make it four times the way.
+    assert!((2 * path.delay..4 * path.delay).contains(&took), "{took:?}");
+    assert_eq!(ann.follower.games().len(), 1);
+    server.stop().await;
+}
+
+#[tokio::test]
 async fn a_stall_holds_up_one_client_and_then_it_is_up_to_date() {
     let server = Server::start(quiet()).await;
     let proxy = Proxy::start(server.address, Weather::default()).await;
