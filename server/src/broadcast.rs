@@ -9,6 +9,7 @@ mod feed;
 mod subscriber;
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
 use std::time::Duration;
 
 use bytes::Bytes;
@@ -16,9 +17,10 @@ use shared::protocol::Stream;
 use tokio::sync::{mpsc, oneshot};
 use tokio::time::{Instant, MissedTickBehavior};
 
-use feed::Feed;
+use feed::{Feed, Terms};
 pub(crate) use subscriber::Subscriber;
 
+use crate::pacing::NextWake;
 use crate::transport::Outgoing;
 
 /// How long one slice of the fan-out may take at the most before others have their turn: the length of a slot.
@@ -77,6 +79,7 @@ pub(crate) struct Patience {
 /// The fan-out.
 pub(crate) struct Broadcast {
     patience: Patience,
+    next_wake: Arc<NextWake>,
     feeds: BTreeMap<Stream, Feed>,
     /// Which stream a client follows, and in which slot.
     whereabouts: HashMap<u32, (Stream, usize)>,
@@ -87,9 +90,10 @@ pub(crate) struct Broadcast {
 }
 
 impl Broadcast {
-    pub(crate) fn new(patience: Patience) -> Self {
+    /// With no stream yet; it makes way for the room when that wants to wake.
+    pub(crate) fn new(patience: Patience, next_wake: Arc<NextWake>) -> Self {
         let (feeds, whereabouts, news) = (BTreeMap::new(), HashMap::new(), BTreeMap::new());
-        Self { patience, feeds, whereabouts, news, slots: 0, ends: false }
+        Self { patience, next_wake, feeds, whereabouts, news, slots: 0, ends: false }
     }
 
     /// Runs until it is told to end, and everybody has got their goodbye or had time for it.
@@ -129,9 +133,9 @@ impl Broadcast {
         self.slots = self.slots.max(due.saturating_sub(1000));
         while self.slots < due {
             self.slots += 1;
-            let (slot, write_time) = (self.slots, self.patience.write_time);
+            let terms = terms(&self.news, self.patience, &self.next_wake);
             for feed in self.feeds.values_mut() {
-                for client in feed.serve_slot(slot, &self.news, write_time) {
+                for client in feed.serve_slot(self.slots, &terms) {
                     self.whereabouts.remove(&client);
                 }
             }
@@ -150,10 +154,10 @@ impl Broadcast {
                 }
             },
             Order::Frame { stream, frame, full } => {
-                let write_time = self.patience.write_time;
+                let terms = terms(&self.news, self.patience, &self.next_wake);
                 if let Some(feed) = self.feeds.get_mut(&stream) {
                     feed.push(frame, full);
-                    for client in feed.serve_prompt(&self.news, write_time) {
+                    for client in feed.serve_prompt(&terms) {
                         self.whereabouts.remove(&client);
                     }
                 }
@@ -226,12 +230,16 @@ impl Broadcast {
     /// Does something to a client and writes to it without waiting for its turn.
     fn at_once(&mut self, client: u32, change: impl FnOnce(&mut Subscriber)) {
         let Some(&(stream, slot)) = self.whereabouts.get(&client) else { return };
-        let write_time = self.patience.write_time;
+        let terms = terms(&self.news, self.patience, &self.next_wake);
         let Some(feed) = self.feeds.get_mut(&stream) else { return };
-        if feed.serve_one(slot, client, &self.news, write_time, change) {
+        if feed.serve_one(slot, client, &terms, change) {
             self.whereabouts.remove(&client);
         }
     }
+}
+
+fn terms<'a>(news: &'a BTreeMap<NewsKind, Bytes>, patience: Patience, next_wake: &'a NextWake) -> Terms<'a> {
+    Terms { news, write_time: patience.write_time, next_wake }
 }
 
 #[cfg(test)]

@@ -46,6 +46,7 @@ pub use tables::{load_table, load_text, read_table};
 use broadcast::{Broadcast, Patience};
 use commands::Command;
 use connection::Surroundings;
+use pacing::NextWake;
 
 /// How long connections may take to say goodbye.
 const GOODBYE_TIME: Duration = Duration::from_secs(2);
@@ -79,10 +80,11 @@ pub async fn run(
     let (commands, heard) = commands::queue();
     let (orders, ordered) = mpsc::unbounded_channel();
     let tick = Arc::new(AtomicU64::new(0));
+    let next_wake = Arc::new(NextWake::default());
     let patience = Patience { write_time: config.write_time, goodbye_time: GOODBYE_TIME };
-    let broadcast = tokio::spawn(Broadcast::new(patience).run(ordered));
+    let broadcast = tokio::spawn(Broadcast::new(patience, Arc::clone(&next_wake)).run(ordered));
     let room = room::Room::new(Arc::clone(&config), orders.clone(), Arc::clone(&tick));
-    let mut room = tokio::task::spawn_blocking(move || room.run(&heard));
+    let mut room = tokio::task::spawn_blocking(move || room.run(&heard, &next_wake));
     let around = Surroundings { config, commands, orders, tick };
 
     let mut connections = JoinSet::new();

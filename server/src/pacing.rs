@@ -1,7 +1,8 @@
 //! Pacing: how many ticks are due. World time follows the wall clock without drift, and a stall is not caught up in a
 //! spiral: what is more than a quarter of a second late is given up.
 
-use std::time::Duration;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// The most lateness that is caught up.
 const MOST_DEBT: Duration = Duration::from_millis(250);
@@ -40,6 +41,40 @@ impl Pacer {
         let ticks = due.min(most);
         self.done += due;
         Due { ticks, skipped: due - ticks }
+    }
+}
+
+/// When the room wants the processor next. Where it has to share a core with the fan-out, that makes way for it then: the
+/// system alone would let whoever runs run on for some milliseconds.
+#[derive(Debug)]
+pub(crate) struct NextWake {
+    epoch: Instant,
+    /// Since then; `u64::MAX` while the room is awake.
+    micros: AtomicU64,
+}
+
+impl Default for NextWake {
+    fn default() -> Self {
+        Self { epoch: Instant::now(), micros: AtomicU64::new(u64::MAX) }
+    }
+}
+
+impl NextWake {
+    /// The room sleeps until `at`.
+    pub(crate) fn sleep_until(&self, at: Instant) {
+        self.micros.store(at.saturating_duration_since(self.epoch).as_micros() as u64, Ordering::Relaxed);
+    }
+
+    /// The room is awake.
+    pub(crate) fn wake(&self) {
+        self.micros.store(u64::MAX, Ordering::Relaxed);
+    }
+
+    /// Lets the room have the core if it waits for it.
+    pub(crate) fn make_way(&self) {
+        if self.epoch.elapsed().as_micros() as u64 >= self.micros.load(Ordering::Relaxed) {
+            std::thread::yield_now();
+        }
     }
 }
 

@@ -23,7 +23,7 @@ use crate::broadcast::{NewsKind, Order, Orders};
 use crate::commands::{Command, Heard};
 use crate::config::Config;
 use crate::lobby::{Deed, GameView, Lobby, News};
-use crate::pacing::Pacer;
+use crate::pacing::{NextWake, Pacer};
 use crate::streams::{Streams, wire};
 use crate::votes::Votes;
 use clients::{goodbye, welcome};
@@ -101,17 +101,19 @@ impl Room {
     }
 
     /// Runs until it is told to stop; says goodbye to everybody.
-    pub(crate) fn run(mut self, heard: &Heard) -> Account {
+    pub(crate) fn run(mut self, heard: &Heard, next_wake: &NextWake) -> Account {
         let begin = Instant::now();
         let mut pacer = Pacer::new(1.0 / self.tick_seconds(), Duration::ZERO);
         let mut wake = WAKE_EVERY;
         loop {
             let now = begin.elapsed();
+            next_wake.sleep_until(begin + wake);
             match heard.queue.recv_timeout(wake.saturating_sub(now)) {
                 Ok(Command::Stop) | Err(RecvTimeoutError::Disconnected) => break,
                 Ok(command) => self.handle(command),
                 Err(RecvTimeoutError::Timeout) => {}
             }
+            next_wake.wake();
             let now = begin.elapsed();
             if now < wake {
                 continue;

@@ -9,12 +9,13 @@ use tokio::time::Instant;
 
 use super::NewsKind;
 use super::subscriber::{Served, Subscriber};
+use crate::pacing::NextWake;
 
 /// Seconds for which frames are kept: who lags by more begins anew from a full snapshot.
 const KEPT_SECONDS: usize = 2;
 /// News that may be kept besides.
 const KEPT_NEWS: usize = 16;
-/// Clients that are served before other threads may have the core: a tenth of a millisecond.
+/// Clients that are served before the room may have the core: a tenth of a millisecond.
 const IN_A_ROW: usize = 16;
 /// The place of those who are served at once.
 const PROMPT: usize = 0;
@@ -22,6 +23,15 @@ const PROMPT: usize = 0;
 /// Whether who is in that slot is served at once.
 pub(super) fn is_prompt(slot: usize) -> bool {
     slot == PROMPT
+}
+
+/// What holds for everybody who is served.
+pub(super) struct Terms<'a> {
+    /// What whoever begins anew is told besides.
+    pub(super) news: &'a BTreeMap<NewsKind, Bytes>,
+    /// How long a client may take nothing of what waits for it.
+    pub(super) write_time: Duration,
+    pub(super) next_wake: &'a NextWake,
 }
 
 /// The last frames of a stream.
@@ -117,17 +127,17 @@ impl Feed {
     }
 
     /// Serves those whose turn it is; returns who is gone.
-    pub(super) fn serve_slot(&mut self, slot: u64, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
+    pub(super) fn serve_slot(&mut self, slot: u64, terms: &Terms<'_>) -> Vec<u32> {
         let intervals = (self.slots.len() - 1) as u64;
-        self.serve(1 + (slot % intervals) as usize, news, write_time)
+        self.serve(1 + (slot % intervals) as usize, terms)
     }
 
     /// Serves those who are served at once; returns who is gone.
-    pub(super) fn serve_prompt(&mut self, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
-        self.serve(PROMPT, news, write_time)
+    pub(super) fn serve_prompt(&mut self, terms: &Terms<'_>) -> Vec<u32> {
+        self.serve(PROMPT, terms)
     }
 
-    fn serve(&mut self, slot: usize, news: &BTreeMap<NewsKind, Bytes>, write_time: Duration) -> Vec<u32> {
+    fn serve(&mut self, slot: usize, terms: &Terms<'_>) -> Vec<u32> {
         if self.slots[slot].is_empty() {
             return Vec::new();
         }
@@ -138,10 +148,9 @@ impl Feed {
         while let Some(subscriber) = self.slots[slot].get_mut(place) {
             served += 1;
             if served % IN_A_ROW == 0 {
-                // On a machine with one core the room's thread may have become ready meanwhile.
-                std::thread::yield_now();
+                terms.next_wake.make_way();
             }
-            match serve(ring, subscriber, news, now, write_time) {
+            match serve(ring, subscriber, now, terms) {
                 Served::Stays => place += 1,
                 Served::Gone(reason) => {
                     let subscriber = self.slots[slot].swap_remove(place);
@@ -158,14 +167,13 @@ impl Feed {
         &mut self,
         slot: usize,
         client: u32,
-        news: &BTreeMap<NewsKind, Bytes>,
-        write_time: Duration,
+        terms: &Terms<'_>,
         change: impl FnOnce(&mut Subscriber),
     ) -> bool {
         let subscribers = &mut self.slots[slot];
         let Some(place) = subscribers.iter().position(|subscriber| subscriber.client == client) else { return true };
         change(&mut subscribers[place]);
-        match serve(&self.ring, &mut subscribers[place], news, Instant::now(), write_time) {
+        match serve(&self.ring, &mut subscribers[place], Instant::now(), terms) {
             Served::Stays => false,
             Served::Gone(reason) => {
                 subscribers.swap_remove(place).drop_for(&reason);
@@ -179,15 +187,9 @@ fn begin(ring: &Ring, subscriber: &mut Subscriber, news: &BTreeMap<NewsKind, Byt
     subscriber.begin(ring.end(), std::iter::once(&ring.full).chain(news.values()));
 }
 
-fn serve(
-    ring: &Ring,
-    subscriber: &mut Subscriber,
-    news: &BTreeMap<NewsKind, Bytes>,
-    now: Instant,
-    write_time: Duration,
-) -> Served {
+fn serve(ring: &Ring, subscriber: &mut Subscriber, now: Instant, terms: &Terms<'_>) -> Served {
     if subscriber.is_past(ring) {
-        begin(ring, subscriber, news);
+        begin(ring, subscriber, terms.news);
     }
-    subscriber.serve(ring, now, write_time)
+    subscriber.serve(ring, now, terms.write_time)
 }

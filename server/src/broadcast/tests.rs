@@ -1,7 +1,7 @@
 //! The fan-out, through a transport that takes as much as a test wants.
 
 use std::io::{self, ErrorKind, IoSlice};
-use std::sync::{Arc, Mutex};
+use std::sync::Mutex;
 
 use super::*;
 use shared::protocol::Form;
@@ -50,7 +50,7 @@ struct Stage {
 impl Stage {
     fn new() -> Self {
         let patience = Patience { write_time: WRITE_TIME, goodbye_time: Duration::from_secs(2) };
-        let mut stage = Self { broadcast: Broadcast::new(patience), now: Duration::ZERO };
+        let mut stage = Self { broadcast: Broadcast::new(patience, Arc::default()), now: Duration::ZERO };
         for stream in [STREAM, PLAYER] {
             stage.order(Order::Open { stream, full: Bytes::from_static(b"F0.") });
         }
