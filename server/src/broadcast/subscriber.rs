@@ -97,10 +97,16 @@ impl Subscriber {
             return Served::Gone("it takes too little of what it asks for".to_owned());
         }
         while !self.queue.is_empty(ring) {
-            let mut waiting = [IoSlice::new(&[]); AT_ONCE];
-            let count = self.queue.gather(ring, &mut waiting);
-            let wanted: usize = waiting[..count].iter().map(|slice| slice.len()).sum();
-            match self.transport.try_write(&waiting[..count]) {
+            let (wanted, outcome) = if let Some(frame) = self.queue.only(ring) {
+                // Nearly always.
+                (frame.len(), self.transport.try_write(&[IoSlice::new(frame)]))
+            } else {
+                let mut waiting = [IoSlice::new(&[]); AT_ONCE];
+                let count = self.queue.gather(ring, &mut waiting);
+                let wanted = waiting[..count].iter().map(|slice| slice.len()).sum();
+                (wanted, self.transport.try_write(&waiting[..count]))
+            };
+            match outcome {
                 Ok(written) => {
                     self.waits_since = None;
                     self.queue.consume(ring, written);
@@ -130,6 +136,15 @@ impl Queue {
         let has_own = !self.begun.is_empty() || !self.own.is_empty();
         // After a goodbye nobody listens any more.
         !has_own && (self.ends || self.start.is_empty() && self.cursor >= ring.end())
+    }
+
+    /// The next frame of the stream, if nothing else waits.
+    fn only<'a>(&self, ring: &'a Ring) -> Option<&'a Bytes> {
+        let waits = !self.begun.is_empty() || !self.own.is_empty() || !self.start.is_empty();
+        if waits || self.ends || self.cursor + 1 != ring.end() {
+            return None;
+        }
+        ring.since(self.cursor)?.next()
     }
 
     /// What is to be written next; returns how many rows of bytes that are.
