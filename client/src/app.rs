@@ -19,6 +19,7 @@ use crate::render::Renderer;
 use crate::report::Report;
 use crate::screens;
 use crate::session::Session;
+use crate::streams::StreamChoice;
 use crate::view::View;
 
 /// Whether there is a next frame.
@@ -97,7 +98,8 @@ impl App {
         let goes_on = self.poll_input();
         // 3. The game as it is now: predicted for who plays, a little late for who watches.
         if let State::Live(connection, session) = &mut self.state {
-            session.advance(now, &mut self.controls, connection);
+            session.advance(now, &mut self.controls);
+            send(connection, session);
         }
         // 4. That as plain data.
         self.assemble(now);
@@ -116,7 +118,8 @@ impl App {
     /// Ends the connection and the embedded server, and says what was counted.
     pub(crate) fn end(mut self) -> Report {
         if let State::Live(connection, session) = &mut self.state {
-            session.leave(connection);
+            session.leave();
+            send(connection, session);
             self.report.add(&session.counts());
         }
         self.report
@@ -128,21 +131,30 @@ impl App {
 
     /// Connects, or tries again; a game's own server that has died is started anew.
     fn connect(&mut self) {
-        let (address, role) = match &self.options.goal {
-            Goal::Play(address) => (address.clone(), Role::Play),
-            Goal::Watch(address) => (address.clone(), Role::Watch),
+        let address = match &self.options.goal {
+            Goal::Server { address, .. } => address.clone(),
             Goal::Own(table) => {
                 let running = self.embedded.take().filter(Embedded::is_alive);
                 match running.map_or_else(|| Embedded::start(Arc::clone(table)), Ok) {
-                    Ok(embedded) => (self.embedded.insert(embedded).address().to_string(), Role::Watch),
+                    Ok(embedded) => self.embedded.insert(embedded).address().to_string(),
                     Err(error) => return self.lose("NO SERVER HERE", &error),
                 }
             }
         };
-        let hello = Hello { name: self.options.name.clone(), role };
+        let (role, choice) = self.role();
+        let hello = Hello { name: self.options.name.clone(), role, stream: choice.stream(role) };
         match Connection::open(address.clone(), hello, self.epoch) {
             Ok(connection) => self.state = State::Connecting(connection, address),
             Err(error) => self.lose(error.headline(), &error),
+        }
+    }
+
+    /// What the program comes for, and the streams that it wants.
+    fn role(&self) -> (Role, StreamChoice) {
+        match self.options.goal {
+            Goal::Server { role, choice, .. } => (role, choice),
+            // It is all on this machine: as smooth as can be.
+            Goal::Own(_) => (Role::Watch, StreamChoice { form: None, hz: Some(60) }),
         }
     }
 
@@ -156,7 +168,7 @@ impl App {
         };
         tracing::warn!("{error}");
         let reason = match &self.options.goal {
-            Goal::Play(address) | Goal::Watch(address) => format!("{headline}: {address}"),
+            Goal::Server { address, .. } => format!("{headline}: {address}"),
             Goal::Own(_) => headline.to_owned(),
         };
         self.state = State::Lost { was_live, reason };
@@ -164,6 +176,7 @@ impl App {
 
     /// 1. Takes in everything that has come.
     fn hear(&mut self) {
+        let (role, choice) = self.role();
         // A server that floods must not keep a frame from being drawn.
         for _ in 0..MOST_HEARD {
             let incoming = match &mut self.state {
@@ -172,7 +185,9 @@ impl App {
             };
             let Some(incoming) = incoming else { return };
             let heard = match (incoming, &mut self.state) {
-                (Incoming::Welcome(welcome), State::Connecting(..)) => Session::new(&welcome).map(|s| self.begin(s)),
+                (Incoming::Welcome(welcome), State::Connecting(..)) => {
+                    Session::new(&welcome, choice, role).map(|session| self.begin(session))
+                }
                 (Incoming::Message { at, message }, State::Live(_, session)) => session.hear(at, message),
                 (Incoming::Ended(error), _) => return self.lose(error.headline(), &error),
                 _ => Ok(()),
@@ -200,11 +215,11 @@ impl App {
         self.keyboard.poll(&mut self.controls, |wish| wishes.push(wish));
         for wish in wishes {
             match (wish, &mut self.state) {
-                (Wish::Go, State::Live(connection, session)) => session.play(connection),
+                (Wish::Go, State::Live(_, session)) => session.play(),
                 (Wish::Go, State::Lost { .. }) => self.connect(),
                 (Wish::Go, State::Connecting(..)) => {}
-                (Wish::Back, State::Live(connection, session)) => {
-                    if !session.leave(connection) {
+                (Wish::Back, State::Live(_, session)) => {
+                    if !session.leave() {
                         return false;
                     }
                 }
@@ -215,6 +230,9 @@ impl App {
                 }
                 (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
                 (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
+                (Wish::Vote(action), State::Live(_, session)) => session.vote(action),
+                (Wish::Look(further), State::Live(_, session)) => session.look(further),
+                (Wish::Vote(_) | Wish::Look(_), _) => {}
             }
         }
         true
@@ -250,7 +268,11 @@ impl App {
             State::Live(_, session) => session.counts(),
             _ => Default::default(),
         };
-        format!("FPS {:.0} LEAD {:.0} WRONG {}", self.report.fps(), counts.lead, counts.wrong)
+        let fps = self.report.fps();
+        match counts.behind.now {
+            Some(behind) => format!("FPS {fps:.0} BEHIND {:.0} DIFFERS {}", behind * 1000.0, counts.mismatches),
+            None => format!("FPS {fps:.0} LEAD {:.0} WRONG {}", counts.lead, counts.wrong),
+        }
     }
 
     /// Saves the picture that was asked for, if it is time; `true` if it was saved.
@@ -264,4 +286,9 @@ impl App {
         picture.export_png(&screenshot.file.to_string_lossy());
         true
     }
+}
+
+/// Sends what a session has to say.
+fn send(connection: &Connection, session: &mut Session) {
+    session.take_outgoing().for_each(|message| connection.send(message));
 }

@@ -5,11 +5,13 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Parser, Subcommand};
-use shared::protocol::check_name;
+use shared::protocol::{Form, RATES, Role, check_name};
 use shared::table::Table;
 use starball_server::load_table;
 
-/// Pinball that many can watch and two can play. Without a command it opens a table of its own.
+use crate::streams::StreamChoice;
+
+/// Pinball that many can watch and up to four can play. Without a command it opens a table of its own.
 #[derive(Debug, Parser)]
 #[command(name = "starball", version)]
 pub(crate) struct Arguments {
@@ -51,6 +53,13 @@ struct Connect {
     /// Where the server listens.
     #[arg(long, value_name = "HOST:PORT", value_parser = address)]
     connect: String,
+    /// What the server is to send: what changed, or what was pressed (much less). Left out: state while you play, inputs
+    /// while you watch.
+    #[arg(long, value_name = "state|inputs", value_parser = form)]
+    stream: Option<Form>,
+    /// How many frames of it a second: 10, 20, 30 or 60. Left out: 60 while you play, 10 while you watch.
+    #[arg(long, value_name = "RATE", value_parser = rate)]
+    hz: Option<u8>,
 }
 
 /// What to connect to.
@@ -58,10 +67,15 @@ struct Connect {
 pub(crate) enum Goal {
     /// A table of one's own.
     Own(Arc<Table>),
-    /// A seat at somebody's server.
-    Play(String),
-    /// A view of it.
-    Watch(String),
+    /// Somebody's server: to play there, or to watch.
+    Server {
+        /// Where it listens.
+        address: String,
+        /// What to come for.
+        role: Role,
+        /// What it is to send.
+        choice: StreamChoice,
+    },
 }
 
 /// A picture to be taken.
@@ -114,12 +128,19 @@ impl Arguments {
                     "--table is for a table of your own: the server that you connect to has chosen its".to_owned()
                 );
             }
-            (Some(Command::Play(to)), None) => Goal::Play(to.connect),
-            (Some(Command::Watch(to)), None) => Goal::Watch(to.connect),
+            (Some(Command::Play(to)), None) => to.goal(Role::Play),
+            (Some(Command::Watch(to)), None) => to.goal(Role::Watch),
         };
         let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
         let name = self.name.unwrap_or_else(user_name);
         Ok(Options { goal, name, screenshot, fps: self.fps, overlay: self.overlay, stats: self.stats })
+    }
+}
+
+impl Connect {
+    fn goal(self, role: Role) -> Goal {
+        let choice = StreamChoice { form: self.stream, hz: self.hz };
+        Goal::Server { address: self.connect, role, choice }
     }
 }
 
@@ -131,6 +152,19 @@ fn user_name() -> String {
 
 fn name(text: &str) -> Result<String, String> {
     check_name(text).map(|()| text.to_owned())
+}
+
+fn form(text: &str) -> Result<Form, String> {
+    match text {
+        "state" => Ok(Form::State),
+        "inputs" => Ok(Form::Inputs),
+        _ => Err("state or inputs would be right".to_owned()),
+    }
+}
+
+fn rate(text: &str) -> Result<u8, String> {
+    let rate = text.parse().ok().filter(|rate| RATES.contains(rate));
+    rate.ok_or_else(|| "10, 20, 30 or 60 would be right".to_owned())
 }
 
 fn seconds(text: &str) -> Result<f64, String> {
@@ -187,9 +221,15 @@ mod tests {
     fn commands() {
         assert!(matches!(check(&[]).unwrap().goal, Goal::Own(table) if table.name == "Classic"));
         let options = check(&["play", "--connect", "localhost:7777", "--name", "Ann"]).unwrap();
-        assert!(matches!(options.goal, Goal::Play(address) if address == "localhost:7777"));
+        let Goal::Server { address, role, choice } = options.goal else { panic!("{:?}", options.goal) };
+        assert_eq!((address.as_str(), role, choice), ("localhost:7777", Role::Play, StreamChoice::default()));
         assert_eq!((options.name.as_str(), options.fps), ("Ann", 60));
-        assert!(matches!(check(&["watch", "--connect", "[::1]:1"]).unwrap().goal, Goal::Watch(_)));
+        let watch = check(&["watch", "--connect", "[::1]:1", "--stream", "state", "--hz", "20"]).unwrap();
+        let Goal::Server { role, choice, .. } = watch.goal else { panic!("{:?}", watch.goal) };
+        assert_eq!((role, choice), (Role::Watch, StreamChoice { form: Some(Form::State), hz: Some(20) }));
+        for (option, bad, right) in [("--hz", "15", "10, 20, 30 or 60"), ("--stream", "x", "state or inputs")] {
+            assert!(check(&["play", "--connect", "[::1]:1", option, bad]).unwrap_err().contains(right));
+        }
         assert!(check(&["watch", "--connect", "[::1]:1", "--overlay"]).unwrap().overlay && !options.overlay);
         assert!(check(&["play"]).unwrap_err().contains("--connect"));
         assert!(check(&["--name", " Ann"]).unwrap_err().contains("blanks"));

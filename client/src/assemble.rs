@@ -3,13 +3,16 @@
 use shared::game::{Nudge, Phase};
 use shared::physics::TargetState;
 use shared::physics::hinge::{HingeSpec, HingeState};
-use shared::table::Table;
+use shared::protocol::Mode;
+use shared::table::{CrowdAction, Table};
 
 use crate::moment::{Moment, Motion};
 use crate::overlay::overlay_of;
-use crate::screens::Words;
-use crate::session::Session;
-use crate::view::{BallView, ElementView, Hud, SeatView, View};
+use crate::screens::{self, Words};
+use crate::session::{Contestant, Session};
+use crate::view::{
+    BallView, CrowdActionState, CrowdActionView, CrowdView, ElementView, Hud, OtherBoard, SeatView, View,
+};
 
 /// In the order of [`View::slaps`].
 const NUDGES: [Nudge; 3] = [Nudge::FromLeft, Nudge::FromRight, Nudge::Forward];
@@ -17,12 +20,43 @@ const NUDGES: [Nudge; 3] = [Nudge::FromLeft, Nudge::FromRight, Nudge::Forward];
 const GATE_OPEN: f64 = 1.3;
 const GATE_FALL: f64 = 0.35;
 
-/// The view of a game; `with_overlay`: and of what its physics sees.
+/// The view of a room; `with_overlay`: and of what the physics of its main board sees.
 pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overlay: bool) -> View {
-    let popups = session.effects_mut().popups(now);
-    let Some(moment) = session.moment() else { return still_view(session.table(), words, now) };
+    let main = session.main_board();
+    let mut view = board_view(session, main, words, now);
+    let Some(moment) = session.moment(main) else { return view };
+    fill_hud(&mut view.hud, session, &moment);
+    view.overlay = with_overlay.then(|| overlay_of(&moment));
+    if with_overlay {
+        // Whoever wants to see the physics wants nothing in front of it; the display says the same.
+        (view.hud.banner, view.hud.sub_banner, view.hud.alarm) = (String::new(), String::new(), None);
+    }
+    let others = (0..session.board_count()).filter(|&board| board != main);
+    view.others = others.filter_map(|board| other_board(session, board, now)).collect();
+    view
+}
+
+/// A board that is drawn small, and who plays it; `None` if nobody does.
+fn other_board(session: &mut Session, board: usize, now: f64) -> Option<OtherBoard> {
+    let mut view = board_view(session, board, Words::default(), now);
+    // There they would be larger than what made them.
+    view.popups.clear();
+    let place = u8::try_from(board).ok();
+    let one = session.contestants().iter().find(|one| one.place == place)?;
+    let state = match session.moment(board).map(|moment| moment.game.phase()) {
+        Some(Phase::Play { ball, .. }) => format!("BALL {ball}"),
+        Some(Phase::Over) if one.plays => "DONE".to_owned(),
+        _ => String::new(),
+    };
+    Some(OtherBoard { view, name: one.name.clone(), score: one.points, state })
+}
+
+/// What is to be seen on a board.
+fn board_view(session: &mut Session, board: usize, words: Words, now: f64) -> View {
+    let popups = session.effects_mut(board).map(|effects| effects.popups(now)).unwrap_or_default();
     let table = session.table();
     let mut view = still_view(table, words, now);
+    let (Some(moment), Some(effects)) = (session.moment(board), session.effects(board)) else { return view };
     let balls = moment.balls.iter();
     let ball_view = |ball: &Motion| BallView {
         position: ball.position.as_vec2(),
@@ -36,12 +70,10 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();
     view.popups = popups;
     view.cabinet = moment.cabinet.as_vec2();
-    view.slaps = NUDGES.map(|nudge| session.effects().slap_of(nudge, now));
-    fill_hud(&mut view.hud, session, &moment);
-    view.overlay = with_overlay.then(|| overlay_of(&moment));
-    if with_overlay {
-        // Whoever wants to see the physics wants nothing in front of it; the display says the same.
-        (view.hud.banner, view.hud.sub_banner) = (String::new(), String::new());
+    view.slaps = NUDGES.map(|nudge| effects.slap_of(nudge, now));
+    view.dimmed = moment.game.is_dimmed();
+    if let Phase::Play { ball, .. } = moment.game.phase() {
+        view.hud.ball = ball;
     }
 
     let targets = table.targets.iter().zip(&moment.game.world().state().targets);
@@ -68,7 +100,7 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
         }
     }
     for (place, element) in view.elements.iter_mut().enumerate() {
-        element.flash = session.effects().flash_of(place, now);
+        element.flash = effects.flash_of(place, now);
     }
     view
 }
@@ -119,25 +151,61 @@ pub(crate) fn over(view: View, table: &Table, words: Words, now: f64) -> View {
 
 fn fill_hud(hud: &mut Hud, session: &Session, moment: &Moment<'_>) {
     let roster = session.roster();
+    hud.title = screens::title(session);
     hud.spectators = roster.spectators;
     hud.queue.clone_from(&roster.line);
-    let phase = moment.game.phase();
-    let seats = moment.game.seats();
-    for ((seat, name), place) in seats.iter().zip(&roster.seats).zip(0_u8..) {
-        if let Some(name) = name {
-            hud.seats.push(SeatView {
-                name: name.clone(),
-                score: seat.score.points,
-                active: phase.has_turn(place),
-                you: session.seat() == Some(place),
-            });
-        }
+    hud.waiting = roster.waiting.max(roster.line.len() as u32);
+    hud.seats = session.contestants().iter().map(seat_view).collect();
+    if let Phase::Play { seat, .. } = moment.game.phase()
+        && let Some(seat) = moment.game.seats().get(usize::from(seat))
+    {
+        (hud.bonus, hud.multiplier) = (seat.score.bonus, seat.score.multiplier);
     }
-    if let Phase::Play { seat, ball, .. } = phase {
-        hud.ball = ball;
-        if let Some(seat) = seats.get(usize::from(seat)) {
-            (hud.bonus, hud.multiplier) = (seat.score.bonus, seat.score.multiplier);
+    if session.mode() == Mode::Crowd
+        && let Some(crowd) = moment.game.crowd()
+    {
+        hud.crowd = Some(crowd_view(session, moment, &crowd));
+        hud.alarm = crowd.announced().and_then(|announced| {
+            let action = crowd.rules().actions.get(usize::from(announced.action))?;
+            let seconds = f64::from(announced.ticks) * moment.game.table().scene.tick_seconds;
+            Some([format!("IN {:.0} S:", seconds.ceil()), action.name.clone()])
+        });
+    }
+}
+
+fn seat_view(one: &Contestant) -> SeatView {
+    let Contestant { name, points, has_turn, is_you, wins, .. } = one;
+    SeatView { name: name.clone(), score: *points, active: *has_turn, you: *is_you, wins: *wins }
+}
+
+fn crowd_view(session: &Session, moment: &Moment<'_>, crowd: &shared::game::CrowdView<'_>) -> CrowdView {
+    let dt = moment.game.table().scene.tick_seconds;
+    let seconds = |ticks: u32| (f64::from(ticks) * dt) as f32;
+    let tally = session.tally();
+    let action = |(place, action): (u8, &CrowdAction)| {
+        let announced = crowd.announced().filter(|announced| announced.action == place);
+        let state = match (announced, crowd.lasts_for(place), crowd.ready_in(place)) {
+            (Some(announced), ..) => CrowdActionState::Announced(seconds(announced.ticks)),
+            (None, 0, 0) if action.cost > crowd.energy() => CrowdActionState::TooDear,
+            (None, 0, 0) => CrowdActionState::Ready,
+            (None, 0, ready) => CrowdActionState::CoolsDown(seconds(ready)),
+            (None, lasts, _) => CrowdActionState::AtWork(seconds(lasts)),
+        };
+        CrowdActionView {
+            name: action.name.clone(),
+            cost: action.cost.ceil() as u32,
+            state,
+            votes: tally.votes.get(usize::from(place)).copied().unwrap_or(0),
+            yours: session.voted() == Some(place),
         }
+    };
+    let rules = crowd.rules();
+    let tick = moment.at.tick as f64;
+    CrowdView {
+        energy: (crowd.energy() as u32, rules.most_energy as u32),
+        actions: (0..).zip(&rules.actions).map(action).collect(),
+        closes_in: tally.closes.map(|closes| ((closes as f64 - tick) * dt).max(0.0) as f32),
+        can_vote: session.place().is_none(),
     }
 }
 

@@ -19,7 +19,24 @@ pub(crate) enum Wish {
     Statistics,
     /// F4.
     Overlay,
+    /// 1 to 9: a vote for what the crowd does, from 0.
+    Vote(u8),
+    /// Tab and the arrows: a look at another board, so many further on.
+    Look(i8),
 }
+
+/// The keys that vote, in order.
+const VOTES: [[KeyCode; 2]; 9] = [
+    [KeyCode::Key1, KeyCode::Kp1],
+    [KeyCode::Key2, KeyCode::Kp2],
+    [KeyCode::Key3, KeyCode::Kp3],
+    [KeyCode::Key4, KeyCode::Kp4],
+    [KeyCode::Key5, KeyCode::Kp5],
+    [KeyCode::Key6, KeyCode::Kp6],
+    [KeyCode::Key7, KeyCode::Kp7],
+    [KeyCode::Key8, KeyCode::Kp8],
+    [KeyCode::Key9, KeyCode::Kp9],
+];
 
 /// Where the window's events come in.
 #[derive(Debug)]
@@ -60,7 +77,20 @@ impl<W: FnMut(Wish)> EventHandler for Sorter<'_, W> {
             KeyCode::F11 => (self.wish)(Wish::FullScreen),
             KeyCode::F3 => (self.wish)(Wish::Statistics),
             KeyCode::F4 => (self.wish)(Wish::Overlay),
-            _ => self.controls.key_down(key),
+            KeyCode::Tab => (self.wish)(Wish::Look(1)),
+            _ => {
+                let vote = VOTES.iter().zip(0..).find(|(keys, _)| keys.contains(&key));
+                if let Some((_, vote)) = vote {
+                    (self.wish)(Wish::Vote(vote));
+                }
+                // Who plays has flippers on these.
+                match key {
+                    KeyCode::Left => (self.wish)(Wish::Look(-1)),
+                    KeyCode::Right => (self.wish)(Wish::Look(1)),
+                    _ => {}
+                }
+                self.controls.key_down(key);
+            }
         }
     }
 
@@ -88,9 +118,16 @@ mod tests {
         sorter.key_down_event(KeyCode::Enter, none, true);
         sorter.key_down_event(KeyCode::A, none, false);
         sorter.key_down_event(KeyCode::F4, none, false);
+        sorter.key_down_event(KeyCode::Key3, none, false);
+        sorter.key_down_event(KeyCode::Kp9, none, false);
+        sorter.key_down_event(KeyCode::Left, none, false);
+        sorter.key_down_event(KeyCode::Tab, none, false);
         sorter.key_down_event(KeyCode::Escape, none, false);
         sorter.window_minimized_event();
-        assert_eq!(wishes, [Wish::Go, Wish::Overlay, Wish::Back]);
+        assert_eq!(
+            wishes,
+            [Wish::Go, Wish::Overlay, Wish::Vote(2), Wish::Vote(8), Wish::Look(-1), Wish::Look(1), Wish::Back]
+        );
         // Pressed and released before the turn began: nothing is held.
         controls.frame(0.0, 0, true, |tick, action| panic!("{action:?} at {tick}"));
     }

@@ -1,8 +1,8 @@
 //! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
 //!
-//! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's game), `timing`, `snapshots`
-//! and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects`, `overlay` and
-//! `assemble` (what goes into a `view`), `render` (draws it).
+//! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
+//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects`,
+//! `overlay` and `assemble` (what goes into a `view`), `render` (draws it).
 
 mod app;
 mod arguments;
@@ -22,6 +22,7 @@ mod report;
 mod screens;
 mod session;
 mod snapshots;
+mod streams;
 mod timing;
 mod view;
 
@@ -84,7 +85,7 @@ fn in_window(options: Options) -> Result<(), String> {
     let backdrop = match &options.goal {
         Goal::Own(table) => Arc::clone(table),
         // Until the server has sent its own.
-        Goal::Play(_) | Goal::Watch(_) => first_shipped()?,
+        Goal::Server { .. } => first_shipped()?,
     };
     let prints_report = options.stats;
     let report = Rc::new(Cell::new(None));

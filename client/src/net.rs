@@ -4,33 +4,56 @@
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use bytes::Bytes;
-use futures_util::{SinkExt, StreamExt};
 use shared::protocol::{
-    ClientMessage, FrameError, Hello, MOST_FROM_SERVER, PreambleError, ServerMessage, Welcome, decode, decode_greeting,
-    encode, encode_greeting,
+    ClientMessage, Deframer, FrameError, FramingError, Hello, MOST_FROM_SERVER, PreambleError, ServerMessage, Welcome,
+    decode_from_server, decode_greeting, encode, encode_greeting, framed,
 };
 use thiserror::Error;
+use tokio::io::{AsyncReadExt, AsyncWriteExt};
 use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::mpsc::{self, error::TryRecvError};
 use tokio::time::timeout;
-use tokio_util::codec::{FramedRead, FramedWrite, LengthDelimitedCodec};
 
 /// How long a server may take to be reached, and then to welcome us.
 const CONNECT_TIME: Duration = Duration::from_secs(5);
-/// How long a server that sends sixty snapshots a second may be silent: its machine, or the way to it, is gone.
+/// How long a server that sends ten frames a second or more may be silent: its machine, or the way to it, is gone.
 const SILENT_TIME: Duration = Duration::from_secs(5);
 /// How long the last words may take.
 const GOODBYE_TIME: Duration = Duration::from_millis(500);
-/// Messages that may wait for the frame loop: four seconds' worth. Beyond it the server is not read any further, and
+/// Messages that may wait for the frame loop: four seconds' worth of the fastest stream. Beyond it the server is not read any further, and
 /// leaves out what a slow client misses.
 const MOST_INCOMING: usize = 256;
 /// Messages that may wait to be sent; a player's hands make some sixty a second.
 const MOST_OUTGOING: usize = 256;
 
-type Reader = FramedRead<OwnedReadHalf, LengthDelimitedCodec>;
-type Writer = FramedWrite<OwnedWriteHalf, LengthDelimitedCodec>;
+/// Bytes for which there is room whenever the socket is read.
+const READ_AT_ONCE: usize = 4096;
+
+/// The frames that come in.
+struct Reader {
+    socket: OwnedReadHalf,
+    deframer: Deframer,
+    /// Something has come at all.
+    has_read: bool,
+}
+
+impl Reader {
+    /// The next frame's message.
+    async fn next<T>(&mut self, decode: impl FnOnce(&[u8]) -> Result<T, FrameError>) -> Result<T, NetError> {
+        loop {
+            if let Some(frame) = self.deframer.next_frame()? {
+                return Ok(decode(frame)?);
+            }
+            let space = self.deframer.space();
+            space.reserve(READ_AT_ONCE);
+            if self.socket.read_buf(space).await? == 0 {
+                return Err(NetError::Closed);
+            }
+            self.has_read = true;
+        }
+    }
+}
 
 /// Why a connection ended, or never began. For a person to read.
 #[derive(Debug, Error)]
@@ -56,6 +79,9 @@ pub(crate) enum NetError {
     /// A frame is none of ours.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// What comes is no frame at all.
+    #[error(transparent)]
+    Framing(#[from] FramingError),
     /// The first message is neither a welcome nor a refusal.
     #[error("the server did not greet")]
     NoGreeting,
@@ -75,7 +101,7 @@ impl NetError {
             Self::Broken(_) | Self::Closed => "THE SERVER IS GONE",
             Self::Frame(FrameError::Preamble(PreambleError::Foreign)) | Self::NoGreeting => "NOT A STARBALL SERVER",
             Self::Frame(FrameError::Preamble(_)) => "ANOTHER RELEASE THERE",
-            Self::Frame(_) => "GARBLED MESSAGES",
+            Self::Frame(_) | Self::Framing(_) => "GARBLED MESSAGES",
             Self::Refused(reason) => reason,
         }
     }
@@ -179,7 +205,7 @@ impl Wire {
             Ok((reader, mut writer, welcome)) => {
                 let ended = self.exchange(reader, &mut writer, welcome).await;
                 // The server may be gone already.
-                let _ = timeout(GOODBYE_TIME, SinkExt::<Bytes>::close(&mut writer)).await;
+                let _ = timeout(GOODBYE_TIME, writer.shutdown()).await;
                 ended
             }
             Err(error) => Err(error),
@@ -191,22 +217,26 @@ impl Wire {
     }
 
     /// Carries messages both ways until either side ends it; `Ok` if ours did.
-    async fn exchange(&mut self, reader: Reader, writer: &mut Writer, welcome: Welcome) -> Result<(), NetError> {
+    async fn exchange(
+        &mut self,
+        mut reader: Reader,
+        writer: &mut OwnedWriteHalf,
+        welcome: Welcome,
+    ) -> Result<(), NetError> {
         let Self { to_loop, from_loop, epoch } = self;
         let reads = async {
-            let mut reader = reader;
             // If the frame loop has hung up, the other half ends this.
             let _ = to_loop.send(Incoming::Welcome(welcome)).await;
-            while let Some(frame) = timeout(SILENT_TIME, reader.next()).await.map_err(|_| NetError::Silent)? {
-                let message = decode(&frame?)?;
+            loop {
+                let next = timeout(SILENT_TIME, reader.next(decode_from_server));
+                let message = next.await.map_err(|_| NetError::Silent)??;
                 let at = epoch.elapsed().as_secs_f64();
                 let _ = to_loop.send(Incoming::Message { at, message }).await;
             }
-            Err(NetError::Closed)
         };
         let writes = async {
             while let Some(message) = from_loop.recv().await {
-                match timeout(CONNECT_TIME, writer.send(Bytes::from(encode(&message)))).await {
+                match timeout(CONNECT_TIME, writer.write_all(&framed(&encode(&message)))).await {
                     Ok(sent) => sent?,
                     Err(_) => return Err(NetError::Closed),
                 }
@@ -221,7 +251,7 @@ impl Wire {
 }
 
 /// Connects and greets.
-async fn connect(address: String, hello: Hello) -> Result<(Reader, Writer, Welcome), NetError> {
+async fn connect(address: String, hello: Hello) -> Result<(Reader, OwnedWriteHalf, Welcome), NetError> {
     let stream = match timeout(CONNECT_TIME, TcpStream::connect(&address)).await {
         Ok(Ok(stream)) => stream,
         Ok(Err(error)) => return Err(NetError::Connect { address, error }),
@@ -229,17 +259,11 @@ async fn connect(address: String, hello: Hello) -> Result<(Reader, Writer, Welco
     };
     // Without this a key press waits for the acknowledgement of the one before.
     stream.set_nodelay(true)?;
-    let codec = || {
-        let mut builder = LengthDelimitedCodec::builder();
-        builder.length_field_type::<u32>().little_endian().max_frame_length(MOST_FROM_SERVER).new_codec()
-    };
-    let (read, write) = stream.into_split();
-    let mut reader = FramedRead::new(read, codec());
-    let mut writer = FramedWrite::new(write, codec());
+    let (socket, mut writer) = stream.into_split();
+    let mut reader = Reader { socket, deframer: Deframer::new(MOST_FROM_SERVER), has_read: false };
     let greeting = async {
-        writer.send(Bytes::from(encode_greeting(&hello))).await?;
-        let frame = reader.next().await.ok_or(NetError::Closed)??;
-        match decode_greeting(&frame)? {
+        writer.write_all(&framed(&encode_greeting(&hello))).await?;
+        match reader.next(decode_greeting).await? {
             ServerMessage::Welcome(welcome) => Ok(welcome),
             ServerMessage::Refused { reason } => Err(NetError::Refused(reason)),
             _ => Err(NetError::NoGreeting),
@@ -247,6 +271,8 @@ async fn connect(address: String, hello: Hello) -> Result<(Reader, Writer, Welco
     };
     match timeout(CONNECT_TIME, greeting).await {
         Ok(Ok(welcome)) => Ok((reader, writer, welcome)),
+        // It said something, but that was no frame.
+        Ok(Err(NetError::Closed | NetError::Framing(_))) if reader.has_read => Err(NetError::NoGreeting),
         Ok(Err(error)) => Err(error),
         Err(_) => Err(NetError::Timeout { address }),
     }
@@ -255,7 +281,7 @@ async fn connect(address: String, hello: Hello) -> Result<(Reader, Writer, Welco
 #[cfg(test)]
 mod tests {
     use super::*;
-    use shared::protocol::{PREAMBLE_LENGTH, Role};
+    use shared::protocol::{Mode, PREAMBLE_LENGTH, Role, Stream};
     use std::io::{Read, Write};
     use std::net::TcpListener;
 
@@ -263,12 +289,14 @@ mod tests {
     fn ending(answer: &[u8]) -> String {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap().to_string();
-        let hello = Hello { name: "test".to_owned(), role: Role::Watch };
+        let hello = Hello { name: "test".to_owned(), role: Role::Watch, stream: Stream::SPECTATOR };
         let mut connection = Connection::open(address, hello, Instant::now()).unwrap();
         let (mut stream, _) = listener.accept().unwrap();
-        let mut length = [0; 4];
+        let mut length = [0; 1];
         stream.read_exact(&mut length).unwrap();
-        assert_eq!(u32::from_le_bytes(length) as usize, PREAMBLE_LENGTH + 6);
+        let mut hello = vec![0; usize::from(length[0])];
+        stream.read_exact(&mut hello).unwrap();
+        assert_eq!(hello.len(), PREAMBLE_LENGTH + 8);
         stream.write_all(answer).unwrap();
         drop(stream);
         wait_for_end(&mut connection)
@@ -286,10 +314,6 @@ mod tests {
         }
     }
 
-    fn framed(body: &[u8]) -> Vec<u8> {
-        [&(body.len() as u32).to_le_bytes(), body].concat()
-    }
-
     #[test]
     fn strange_servers_are_told_apart() {
         let refusal = encode_greeting(&ServerMessage::Refused { reason: "full".to_owned() });
@@ -298,21 +322,25 @@ mod tests {
         assert_eq!(ending(&framed(&pong)), "the server did not greet");
         let mut other = refusal.clone();
         other[8] ^= 0x40;
-        assert!(ending(&framed(&other)).contains("protocol 65"), "{}", ending(&framed(&other)));
+        assert!(ending(&framed(&other)).contains("protocol 66"), "{}", ending(&framed(&other)));
         assert!(ending(&framed(&refusal[..PREAMBLE_LENGTH])).contains("no message"));
-        assert!(ending(b"HTTP/1.1 400 Bad Request\r\n\r\n").starts_with("the connection broke"));
+        assert_eq!(ending(b"HTTP/1.1 400 Bad Request\r\n\r\n"), "the server did not greet");
+        assert_eq!(ending(&[0xff; 8]), "the server did not greet");
         // It may also be noticed as a reset.
         assert!(ending(b"").starts_with("the "));
-        let welcome = Welcome { client: 1, physics: 1, table_digest: 1, table: String::new() };
+        let (room, table) = ("main".to_owned(), String::new());
+        let welcome = Welcome { room, mode: Mode::Challenge, places: 4, physics: 1, table_digest: 1, table };
         let welcome = encode_greeting(&ServerMessage::Welcome(welcome));
-        let garbage = [framed(&welcome), framed(&[200, 1, 2])].concat();
+        let garbage = [framed(&welcome), framed(&[100, 1, 2])].concat();
         assert!(ending(&garbage).contains("no message"));
+        let endless = [&framed(&welcome)[..], &[0xff; 3]].concat();
+        assert!(ending(&endless).contains("length"));
     }
 
     #[test]
     fn a_refused_connection_says_where() {
         let address = TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap().to_string();
-        let hello = Hello { name: "test".to_owned(), role: Role::Watch };
+        let hello = Hello { name: "test".to_owned(), role: Role::Watch, stream: Stream::SPECTATOR };
         let mut connection = Connection::open(address.clone(), hello, Instant::now()).unwrap();
         assert!(wait_for_end(&mut connection).starts_with(&format!("cannot connect to {address}: ")));
     }
@@ -321,7 +349,7 @@ mod tests {
     fn hanging_up_does_not_wait_for_a_silent_server() {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let address = listener.local_addr().unwrap().to_string();
-        let hello = Hello { name: "test".to_owned(), role: Role::Watch };
+        let hello = Hello { name: "test".to_owned(), role: Role::Watch, stream: Stream::SPECTATOR };
         let connection = Connection::open(address, hello, Instant::now()).unwrap();
         let began = Instant::now();
         drop(connection);

@@ -17,9 +17,12 @@ pub(crate) struct Report {
     lately: f64,
     /// The longest frame, seconds.
     longest: f64,
-    snapshots: u64,
+    received: u64,
     right: u64,
     wrong: u64,
+    mismatches: u64,
+    /// Seconds that pictures of a spectator were behind: their sum, how many, the most.
+    behind: (f64, u64, f64),
 }
 
 impl Report {
@@ -35,9 +38,12 @@ impl Report {
 
     /// A session has ended.
     pub(crate) fn add(&mut self, counts: &Counts) {
-        self.snapshots += counts.snapshots;
+        self.received += counts.frames;
         self.right += counts.right;
         self.wrong += counts.wrong;
+        self.mismatches += counts.mismatches;
+        let (sum, count, most) = self.behind;
+        self.behind = (sum + counts.behind.sum, count + counts.behind.count, most.max(counts.behind.most));
     }
 
     /// Frames a second, lately.
@@ -51,12 +57,15 @@ impl fmt::Display for Report {
         let (first, last) = self.span.unwrap_or_default();
         let seconds = last - first;
         let fps = if seconds > 0.0 { (self.frames - 1) as f64 / seconds } else { 0.0 };
-        let Self { frames, longest, snapshots, right, wrong, .. } = self;
+        let Self { frames, longest, received, right, wrong, mismatches, .. } = self;
         let longest = longest * 1000.0;
+        let (sum, count, most) = self.behind;
+        let (behind, most) = (if count > 0 { sum / count as f64 } else { 0.0 } * 1000.0, most * 1000.0);
         write!(
             f,
             "stats: frames {frames} seconds {seconds:.1} mean-fps {fps:.1} longest-frame-ms {longest:.1} \
-             snapshots {snapshots} predictions-right {right} mispredictions {wrong}"
+             received {received} predictions-right {right} mispredictions {wrong} behind-live-ms {behind:.0} \
+             most-behind-ms {most:.0} mismatches {mismatches}"
         )
     }
 }
@@ -64,6 +73,7 @@ impl fmt::Display for Report {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::session::Behind;
 
     #[test]
     fn counts_frames() {
@@ -71,15 +81,17 @@ mod tests {
         for k in 0..601 {
             report.drawn(5.0 + f64::from(k) / 60.0);
         }
-        report.add(&Counts { snapshots: 3, right: 2, wrong: 1, lead: 0.0 });
-        report.add(&Counts { snapshots: 3, right: 2, wrong: 1, lead: 0.0 });
+        let behind = Behind { now: None, sum: 0.4, count: 2, most: 0.3 };
+        let counts = Counts { frames: 3, right: 2, wrong: 1, mismatches: 1, lead: 0.0, behind };
+        report.add(&counts);
+        report.add(&Counts { behind: Behind { most: 0.25, ..behind }, ..counts });
         assert!((59.0..61.0).contains(&report.fps()));
         let text = report.to_string();
         assert!(
-            text.starts_with("stats: frames 601 seconds 10.0 mean-fps 60.0 longest-frame-ms 16.7 snapshots 6 "),
+            text.starts_with("stats: frames 601 seconds 10.0 mean-fps 60.0 longest-frame-ms 16.7 received 6 "),
             "{text}"
         );
-        assert!(text.ends_with("predictions-right 4 mispredictions 2"), "{text}");
+        assert!(text.ends_with("mispredictions 2 behind-live-ms 200 most-behind-ms 300 mismatches 2"), "{text}");
         assert!(Report::default().to_string().contains("mean-fps 0.0"));
     }
 }

@@ -1,10 +1,12 @@
 //! What the screen says in each situation: the line on the display, the keys that work, the banner.
 
-use shared::game::{Game, Phase, Seat};
+use shared::game::{Game, Phase};
 use shared::physics::ball::Instant;
+use shared::protocol::Mode;
 
 use crate::moment::Moment;
-use crate::session::Session;
+use crate::render::grouped;
+use crate::session::{Outcome, Session};
 
 /// What the screen says.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -50,12 +52,27 @@ pub(crate) fn lost(was_live: bool, reason: &str) -> Words {
     }
 }
 
+/// How the room is played, and against whom.
+pub(crate) fn title(session: &Session) -> String {
+    match session.mode() {
+        Mode::Challenge => "CHALLENGE".to_owned(),
+        Mode::HeadToHead => "HEAD TO HEAD".to_owned(),
+        Mode::Crowd => {
+            let player = session.contestants().iter().find(|one| one.place.is_some());
+            format!("THE CROWD AGAINST {}", player.map_or("ANYONE", |one| &one.name))
+        }
+    }
+}
+
 /// While a game is to be seen.
 pub(crate) fn live(session: &Session, now: f64) -> Words {
-    let Some(moment) = session.moment() else { return Words { message: "WELCOME".to_owned(), ..connecting("") } };
+    let main = session.main_board();
+    let Some(moment) = session.moment(main) else {
+        return Words { message: "WELCOME".to_owned(), ..connecting("") };
+    };
     let standing = Standing::of(session, &moment);
     let (banner, sub_banner) = standing.banner(now);
-    let message = match session.effects().message(now) {
+    let message = match session.effects(main).and_then(|effects| effects.message(now)) {
         _ if session.is_silent(now) => "NO SIGNAL".to_owned(),
         // Whatever else there is to say: the buttons are dead.
         _ if has_tilted(moment.game) && standing == Standing::Plunger => "TILT: HOLD SPACE".to_owned(),
@@ -63,42 +80,66 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
         Some(message) => message.to_owned(),
         None => standing.message(),
     };
-    Words { message, keys: standing.keys(session.table().file.cabinet.is_some()), banner, sub_banner }
+    let mut keys = standing.keys(session.table().file.cabinet.is_some());
+    if session.place().is_none() {
+        let more = more_keys(session);
+        // What can be done about the game comes first, the way out last.
+        let place = keys.len().min(1);
+        keys.splice(place..place, more);
+    }
+    Words { message, keys, banner, sub_banner }
+}
+
+/// What who has no place can do besides.
+fn more_keys(session: &Session) -> Vec<(String, String)> {
+    let actions = session.table().rules.crowd.as_ref().map_or(0, |crowd| crowd.actions.len());
+    match session.mode() {
+        Mode::Crowd if actions > 0 && session.is_playing() => vec![(format!("1 TO {actions}"), "VOTE".to_owned())],
+        Mode::HeadToHead if session.board_count() > 1 => keys(&[("TAB", "OTHER TABLE")]),
+        _ => Vec::new(),
+    }
 }
 
 /// How the person at the window stands to the game.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Standing {
-    /// Nobody plays, or the bot.
-    Attract,
-    /// Others play. `can_join`: the game stands at its start, and a seat is free.
+    /// Nobody plays, or the bot. `has_title`: nothing is to be done meanwhile, so that the title may hide the table.
+    Attract { has_title: bool },
+    /// Others play. `can_join`: the game stands at its start, and a place is free.
     Watching { can_join: bool },
     /// In line, at that place.
     InLine(u16),
-    /// Seated; the game is over. `won`: against somebody, with more points.
-    Over { won: bool, points: u64 },
+    /// The game is over. `has_place`: for the person too, who can begin another; else that is their place in the line.
+    Over { outcome: Outcome, has_place: bool, line: Option<u16> },
     /// It is the person's turn, and the ball waits for the plunger.
     Plunger,
     /// It is the person's turn.
     Turn,
-    /// It is that player's turn.
+    /// It is that player's turn, or others play on.
     Waiting(String),
 }
 
 impl Standing {
     fn of(session: &Session, moment: &Moment<'_>) -> Self {
         let game = moment.game;
-        let names = &session.roster().seats;
-        let Some(seat) = session.seat() else {
-            if let Some(place) = session.line() {
+        let names = &session.roster().places;
+        let line = session.line();
+        let Some(place) = session.place() else {
+            let is_attract = names.iter().flatten().all(|name| name == BOT) && line.is_none();
+            if let Some(outcome) = session.outcome().filter(|outcome| !is_attract || outcome.own.is_some()) {
+                return Self::Over { outcome, has_place: false, line };
+            }
+            if let Some(place) = line {
                 return Self::InLine(place);
             }
-            if names.iter().flatten().all(|name| name == BOT) {
-                return Self::Attract;
+            if is_attract {
+                return Self::Attract { has_title: session.mode() != Mode::Crowd || !session.is_playing() };
             }
-            let is_free = names.iter().any(Option::is_none) && session.roster().line.is_empty();
-            return Self::Watching { can_join: is_free && game.is_at_start() };
+            let free = names.iter().take(session.places()).any(Option::is_none) && session.roster().line.is_empty();
+            let is_open = if session.board_count() > 1 { !session.is_playing() } else { game.is_at_start() };
+            return Self::Watching { can_join: free && is_open };
         };
+        let (_, seat) = session.board_and_seat(place);
         match game.phase() {
             Phase::Play { seat: turn, .. } if turn == seat => {
                 if is_on_plunger(game) {
@@ -107,32 +148,30 @@ impl Standing {
                     Self::Turn
                 }
             }
-            Phase::Play { seat: turn, .. } => {
-                let name = names.get(usize::from(turn)).cloned().flatten();
-                Self::Waiting(name.unwrap_or_else(|| format!("PLAYER {}", turn + 1)))
+            Phase::Idle | Phase::Over if !session.is_playing() => {
+                let own = session.contestants().iter().find(|one| one.is_you).cloned();
+                let nothing = Outcome { winner: None, own, next: None };
+                let outcome = session.outcome().unwrap_or(nothing);
+                Self::Over { outcome, has_place: true, line }
             }
-            Phase::Idle | Phase::Over => {
-                let (own, others): (Vec<_>, Vec<_>) =
-                    (0..).zip(game.seats()).filter(|(_, other)| other.playing).partition(|(place, _)| *place == seat);
-                let points = |seats: Vec<(u8, &Seat)>| seats.iter().map(|(_, seat)| seat.score.points).max();
-                let own = points(own);
-                let won = points(others).is_some_and(|others| own > Some(others));
-                Self::Over { won, points: own.unwrap_or(0) }
+            _ => {
+                let other = session.contestants().iter().find(|one| one.has_turn);
+                Self::Waiting(other.map_or_else(String::new, |one| one.name.clone()))
             }
         }
     }
 
     fn message(&self) -> String {
         match self {
-            Self::Attract => "PRESS ENTER".to_owned(),
+            Self::Attract { .. } => "PRESS ENTER".to_owned(),
             Self::Watching { can_join: true } => "ENTER: JOIN".to_owned(),
             Self::Watching { can_join: false } => "WATCHING".to_owned(),
             Self::InLine(1) => "YOU ARE NEXT".to_owned(),
             Self::InLine(place) => format!("IN LINE: {place}"),
-            Self::Over { won: true, .. } => "YOU WIN".to_owned(),
-            Self::Over { won: false, .. } => "GAME OVER".to_owned(),
+            Self::Over { outcome, .. } => headline(outcome),
             Self::Plunger => "HOLD SPACE, LET GO".to_owned(),
             Self::Turn => "SHOOT".to_owned(),
+            Self::Waiting(name) if name.is_empty() => "WAIT".to_owned(),
             Self::Waiting(name) => format!("{name} PLAYS"),
         }
     }
@@ -140,13 +179,17 @@ impl Standing {
     /// `can_nudge`: the table moves when it is nudged.
     fn keys(&self, can_nudge: bool) -> Vec<(String, String)> {
         match self {
-            Self::Attract => keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")]),
+            Self::Attract { .. } => {
+                keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")])
+            }
             Self::Watching { can_join: true } => {
                 keys(&[("ENTER", "JOIN THE GAME"), ("F4", "PHYSICS"), ("ESC", "QUIT")])
             }
             Self::Watching { can_join: false } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
             Self::InLine(_) => keys(&[("ESC", "LEAVE THE LINE")]),
-            Self::Over { .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
+            Self::Over { has_place: true, .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
+            Self::Over { line: Some(_), .. } => keys(&[("ESC", "LEAVE THE LINE")]),
+            Self::Over { .. } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
             Self::Plunger | Self::Turn => {
                 let nudge: &[_] = if can_nudge { &[("Q, W, E", "NUDGE")] } else { &[] };
                 let play: &[_] = &[("L SHIFT, Z", "LEFT"), ("R SHIFT, /", "RIGHT"), ("SPACE", "PLUNGER")];
@@ -162,15 +205,55 @@ impl Standing {
             if is_on { text.to_owned() } else { " ".to_owned() }
         };
         match self {
-            Self::Attract if now % TITLE.1 < TITLE.0 => ("STARBALL".to_owned(), blinks("PRESS ENTER TO PLAY")),
-            Self::Over { won, points } => {
-                let turn = now % (2.0 * EACH_LINE) < EACH_LINE;
-                let line = if turn { format!("{points} POINTS") } else { "ENTER: PLAY AGAIN".to_owned() };
-                (if *won { "YOU WIN" } else { "GAME OVER" }.to_owned(), line)
+            Self::Attract { has_title: true } if now % TITLE.1 < TITLE.0 => {
+                ("STARBALL".to_owned(), blinks("PRESS ENTER TO PLAY"))
+            }
+            Self::Over { outcome, has_place, line } => {
+                let lines = result_lines(outcome, *has_place, *line);
+                // A cast saturates.
+                let turn = (now / EACH_LINE) as usize % lines.len().max(1);
+                (headline(outcome), lines.get(turn).cloned().unwrap_or_default())
             }
             _ => Default::default(),
         }
     }
+}
+
+/// How it ended, in as few words as a banner holds.
+fn headline(outcome: &Outcome) -> String {
+    match (&outcome.winner, &outcome.own) {
+        (Some(winner), _) if winner.is_you && winner.place.is_some() => "YOU WIN".to_owned(),
+        (Some(winner), _) if winner.place.is_none() => "THE CROWD WINS".to_owned(),
+        (Some(winner), _) => format!("{} WINS", winner.name),
+        (None, _) => "GAME OVER".to_owned(),
+    }
+}
+
+/// What there is to say about the end of a game, line by line: points, who stays, who comes up, what can be done.
+fn result_lines(outcome: &Outcome, has_place: bool, line: Option<u16>) -> Vec<String> {
+    let mut lines = Vec::new();
+    let winner = outcome.winner.as_ref();
+    if let Some(winner) = winner {
+        lines.push(format!("{} POINTS", grouped(winner.points)));
+    }
+    if let Some(own) = outcome.own.as_ref().filter(|own| winner.is_none_or(|winner| winner.place != own.place)) {
+        lines.push(format!("YOU: {} POINTS", grouped(own.points)));
+    }
+    if let Some(winner) = winner.filter(|winner| winner.wins > 0) {
+        let games = if winner.wins == 1 { "1 WIN".to_owned() } else { format!("{} WINS IN A ROW", winner.wins) };
+        lines.push(if winner.is_you {
+            format!("YOU STAY: {games}")
+        } else {
+            format!("{} STAYS: {games}", winner.name)
+        });
+    }
+    match (line, &outcome.next) {
+        (Some(1), _) => lines.push("YOU ARE NEXT".to_owned()),
+        (_, Some(next)) => lines.push(format!("{next} COMES UP")),
+        (_, None) if has_place => lines.push("ENTER: PLAY AGAIN".to_owned()),
+        (_, None) => {}
+    }
+    lines
 }
 
 /// Whether a game has tilted, and the ball is not lost yet.

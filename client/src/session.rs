@@ -1,133 +1,123 @@
-//! One connection's game, from the welcome to the end: what the server said last, and what is to be seen of it now.
+//! One connection's room, from the welcome to the end: what the server said last, and what is to be seen of it now.
 //!
-//! Who has the turn sees a prediction; everybody else sees what the server sent, a little late.
+//! Who has the turn sees a prediction of their board; everything else is seen a little late: as it was sent, or, in a stream
+//! of inputs that is only watched, in copies of the games that are stepped along. What is to be sent waits in the session
+//! until whoever has the connection takes it: a session knows no socket.
 
-use std::collections::VecDeque;
+mod advance;
+mod board;
+mod contest;
+mod error;
+mod feed;
+mod pings;
+#[cfg(test)]
+mod simulated;
+
 use std::sync::Arc;
 
-use shared::game::{Phase, SEATS};
-use shared::physics::{PHYSICS_VERSION, StateError};
-use shared::protocol::{ClientMessage, Roster, SNAPSHOT_HZ, ServerMessage, Welcome};
-use shared::table::{Table, TableError};
-use thiserror::Error;
+use shared::game::{Game, Phase, SEATS};
+use shared::physics::PHYSICS_VERSION;
+use shared::protocol::{ClientMessage, Form, Heard, Mode, Role, Roster, ServerMessage, Stream, Tally, Welcome};
+use shared::table::Table;
 
-use crate::controls::Controls;
 use crate::effects::Effects;
 use crate::moment::Moment;
-use crate::net::Connection;
-use crate::prediction::{Prediction, Verdict};
-use crate::snapshots::SnapshotBuffer;
-use crate::timing::{Lead, ServerClock};
+use crate::prediction::Prediction;
+use crate::streams::StreamChoice;
+use crate::timing::{Delay, Lead, ServerClock, TrueClock};
+use board::Board;
+use contest::Contest;
+pub(crate) use contest::{Contestant, Outcome};
+pub(crate) use error::SessionError;
+use feed::Feed;
+use pings::Pings;
 
-/// Seconds by which a spectator sees late: two snapshots, so that one may come late without being missed.
-const DELAY: f64 = 2.0 / SNAPSHOT_HZ as f64;
-/// Seconds by which an input should be early at the server: the server wakes every 4 ms, and messages wait for it.
-const EARLY: f64 = 0.006;
-/// Seconds by which the prediction is ahead beyond what the way takes: a frame, as its keys act from its beginning on,
-/// and what they should be early.
-const MARGIN: f64 = 1.0 / 60.0 + EARLY;
-/// Seconds that the prediction is ahead at most. The server allows inputs 0.25 s ahead.
-const MOST_LEAD: f64 = 0.2;
-/// Seconds from the newest snapshot at which a prediction waits for the next one: the server has stalled.
-const MOST_AHEAD: f64 = 0.3;
-/// Seconds that a prediction may be ahead of where it should be; beyond that the server has lost time, and it begins anew.
-const MOST_EXCESS: f64 = 0.05;
-/// Seconds without a snapshot after which the person at the window is told.
+/// Seconds without a frame after which the person at the window is told.
 const SILENCE: f64 = 1.0;
-/// Seconds between two pings.
-const PING_EVERY: f64 = 0.25;
-/// Pings that may be unanswered; older ones are forgotten.
-const MOST_PINGS: usize = 16;
-/// Seconds by which the picture may wait for the estimated time after it fell back; beyond that it jumps back.
-const MOST_WAIT: f64 = 0.5;
-
-/// Why a session ended. For a person to read.
-#[derive(Debug, Error)]
-pub(crate) enum SessionError {
-    /// The server's table cannot be read.
-    #[error("the server's table cannot be read: {0}")]
-    Table(#[from] TableError),
-    /// The table is not what its digest says.
-    #[error("the server's table does not have the digest that the server says")]
-    Digest,
-    /// The table asks for an accuracy, and the server has not said what that means.
-    #[error(
-        "the server's table still asks for an accuracy; a server resolves that into a motion model and a tick rate"
-    )]
-    Unresolved,
-    /// The server would compute other trajectories.
-    #[error("the server runs physics version {theirs}, this game {PHYSICS_VERSION}: use the same release on both")]
-    Physics { theirs: u32 },
-    /// A snapshot that fits no game on this table.
-    #[error("the server sent a game that does not fit its table: {0}")]
-    State(#[from] StateError),
-    /// The server says goodbye.
-    #[error("the server says goodbye: {0}")]
-    Bye(String),
-    /// A second welcome, or a refusal after the welcome.
-    #[error("the server greets twice")]
-    Greeting,
-}
-
-impl SessionError {
-    /// In as many words as a banner has room for.
-    pub(crate) fn headline(&self) -> &str {
-        match self {
-            Self::Table(_) | Self::Digest | Self::Unresolved => "UNREADABLE TABLE",
-            Self::Physics { .. } => "ANOTHER RELEASE THERE",
-            Self::State(_) | Self::Greeting => "GARBLED MESSAGES",
-            Self::Bye(reason) => reason,
-        }
-    }
-}
 
 /// What was counted, for the end.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Counts {
-    /// Snapshots received.
-    pub(crate) snapshots: u64,
+    /// Frames of the stream that were received.
+    pub(crate) frames: u64,
     /// Predictions that were right.
     pub(crate) right: u64,
     /// Predictions that were wrong.
     pub(crate) wrong: u64,
+    /// Times that a copy was not what the server has.
+    pub(crate) mismatches: u64,
     /// The last lead, ticks.
     pub(crate) lead: f64,
+    /// How far behind the server the picture of a spectator was.
+    pub(crate) behind: Behind,
 }
 
-/// One connection's game.
+/// How far behind the server a picture was, seconds.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Behind {
+    /// Just now; `None` while a prediction is seen, or nobody knows.
+    pub(crate) now: Option<f64>,
+    /// Of all pictures.
+    pub(crate) sum: f64,
+    /// Pictures.
+    pub(crate) count: u64,
+    /// At the most.
+    pub(crate) most: f64,
+}
+
+impl Behind {
+    fn note(&mut self, seconds: Option<f64>) {
+        self.now = seconds;
+        if let Some(seconds) = seconds {
+            self.sum += seconds;
+            self.count += 1;
+            self.most = self.most.max(seconds);
+        }
+    }
+}
+
+/// One connection's room.
 #[derive(Debug)]
 pub(crate) struct Session {
     table: Arc<Table>,
+    mode: Mode,
+    places: u8,
+    choice: StreamChoice,
+    feed: Feed,
     clock: ServerClock,
+    delay: Delay,
+    truth: TrueClock,
     lead: Lead,
-    snapshots: SnapshotBuffer,
+    pings: Pings,
+    boards: Vec<Board>,
+    /// The board that a spectator looks at.
+    chosen: usize,
     prediction: Option<Prediction>,
     roster: Roster,
-    seat: Option<u8>,
+    tally: Tally,
+    /// What the person at the window voted for.
+    vote: Option<u8>,
+    place: Option<u8>,
     line: Option<u16>,
-    /// The seat was given back, but the server has not said so yet. Until then nothing may be asked, and what it says
-    /// about the seat is old.
+    /// The place was given back, but the server has not said so yet. Until then nothing may be asked, and what it says
+    /// about the place is old.
     is_leaving: bool,
-    effects: Effects,
-    /// The tick that is shown.
-    shown: f64,
-    /// Events before this tick have been shown.
-    events_shown: u64,
-    /// When the last snapshot came.
+    /// The stream that the clock and the delay know.
+    known: Option<Stream>,
+    /// When the last frame of the stream came.
     heard_at: f64,
-    next_ping: f64,
-    nonce: u64,
-    /// Pings that wait for an answer: nonce and when they were sent.
-    pings: VecDeque<(u64, f64)>,
+    began_at: Option<f64>,
+    contest: Contest,
+    outbox: Vec<ClientMessage>,
     counts: Counts,
 }
 
 impl Session {
-    /// A session as a welcome begins it.
+    /// A session as a welcome begins it, after a hello for `role`.
     ///
     /// # Errors
     /// If the table cannot be played here.
-    pub(crate) fn new(welcome: &Welcome) -> Result<Self, SessionError> {
+    pub(crate) fn new(welcome: &Welcome, choice: StreamChoice, role: Role) -> Result<Self, SessionError> {
         if welcome.physics != PHYSICS_VERSION {
             return Err(SessionError::Physics { theirs: welcome.physics });
         }
@@ -140,22 +130,31 @@ impl Session {
             return Err(SessionError::Unresolved);
         }
         let table = Arc::new(table);
+        let tick_seconds = table.scene.tick_seconds;
         Ok(Self {
-            clock: ServerClock::new(table.scene.tick_seconds),
+            mode: welcome.mode,
+            places: welcome.places,
+            feed: Feed::new(Arc::clone(&table), choice.stream(role)),
+            choice,
+            clock: ServerClock::new(tick_seconds),
+            delay: Delay::default(),
+            truth: TrueClock::new(tick_seconds),
             lead: Lead::default(),
-            snapshots: SnapshotBuffer::new(Arc::clone(&table)),
+            pings: Pings::default(),
+            boards: vec![Board::new(&table)],
+            chosen: 0,
             prediction: None,
             roster: Roster::default(),
-            seat: None,
+            tally: Tally::default(),
+            vote: None,
+            place: None,
             line: None,
             is_leaving: false,
-            effects: Effects::default(),
-            shown: 0.0,
-            events_shown: 0,
+            known: None,
             heard_at: 0.0,
-            next_ping: 0.0,
-            nonce: 0,
-            pings: VecDeque::new(),
+            began_at: None,
+            contest: Contest::default(),
+            outbox: Vec::new(),
             counts: Counts::default(),
             table,
         })
@@ -167,23 +166,36 @@ impl Session {
     /// If that is the end.
     pub(crate) fn hear(&mut self, at: f64, message: ServerMessage) -> Result<(), SessionError> {
         match message {
-            ServerMessage::Snapshot(snapshot) => {
-                self.clock.arrived(snapshot.state.world.tick, at);
-                self.snapshots.push(*snapshot)?;
-                self.counts.snapshots += 1;
-                self.heard_at = at;
+            ServerMessage::Full(full) => {
+                let heard = self.feed.hear_full(&full)?;
+                self.boards.resize_with(self.feed.games().len().max(1), || Board::new(&self.table));
+                self.note_frame(at, heard, None);
+            }
+            ServerMessage::Change(change) => {
+                let heard = self.feed.hear_change(&change)?;
+                for event in change.events.iter().filter(|_| heard == Heard::Further) {
+                    if let Some(board) = self.boards.get_mut(usize::from(event.board)) {
+                        board.snapshots.note(event.event);
+                    }
+                }
+                self.note_frame(at, heard, Some(change.to));
+            }
+            ServerMessage::Inputs(inputs) => {
+                let heard = self.feed.hear_inputs(&inputs)?;
+                self.note_frame(at, heard, Some(inputs.to));
             }
             ServerMessage::Roster(roster) => self.roster = roster,
-            ServerMessage::You { seat, line } => {
-                self.is_leaving &= seat.is_some() || line.is_some();
-                if !self.is_leaving {
-                    (self.seat, self.line) = (seat.filter(|&seat| usize::from(seat) < SEATS), line);
+            ServerMessage::Tally(tally) => {
+                if self.tally.closes.is_some() && tally.closes != self.tally.closes {
+                    self.vote = None;
                 }
+                self.tally = tally;
             }
-            ServerMessage::Pong { nonce, .. } => {
-                if let Some(place) = self.pings.iter().position(|(sent, _)| *sent == nonce) {
-                    self.lead.measured(at - self.pings[place].1);
-                    self.pings.drain(..=place);
+            ServerMessage::You { place, line, .. } => self.hear_what_i_am(place, line),
+            ServerMessage::Pong { nonce, tick } => {
+                if let Some(trip) = self.pings.answered(nonce, at) {
+                    self.lead.measured(trip);
+                    self.truth.answered(tick, at, trip);
                 }
             }
             ServerMessage::Bye { reason } => return Err(SessionError::Bye(reason)),
@@ -192,88 +204,91 @@ impl Session {
         Ok(())
     }
 
-    /// Asks for a seat, or for the next game.
-    pub(crate) fn play(&self, connection: &Connection) {
-        if !self.is_leaving && self.can_ask() {
-            connection.send(ClientMessage::Play);
+    /// A frame of the stream came, which leads to a tick.
+    fn note_frame(&mut self, at: f64, heard: Heard, to: Option<u64>) {
+        self.heard_at = at;
+        self.counts.frames += 1;
+        if !self.feed.is_switching() && self.known != Some(self.feed.stream()) {
+            // Another stream's frames wait longer or shorter at the server.
+            self.known = Some(self.feed.stream());
+            (self.clock, self.delay) = (ServerClock::new(self.table.scene.tick_seconds), Delay::default());
+        }
+        // When a full snapshot comes says little: the first one of a stream may be as old as a frame.
+        if let (Heard::Further, Some(tick)) = (heard, to) {
+            self.delay.arrived(at, self.clock.arrived(tick, at));
+        }
+        if !self.is_stepped() {
+            self.keep_what_was_sent();
         }
     }
 
-    /// Gives the seat or the place in the line back; `false` if there is none.
-    pub(crate) fn leave(&mut self, connection: &Connection) -> bool {
-        if self.seat.is_none() && self.line.is_none() {
+    /// The place in the room, or in the line, as the server says; and the stream that goes with it.
+    fn hear_what_i_am(&mut self, place: Option<u8>, line: Option<u16>) {
+        self.is_leaving &= place.is_some() || line.is_some();
+        let place = place.filter(|&place| usize::from(place) < SEATS);
+        if !self.is_leaving {
+            if place != self.place {
+                self.prediction = None;
+            }
+            (self.place, self.line) = (place, line);
+        }
+        let role = if place.is_some() { Role::Play } else { Role::Watch };
+        let stream = self.choice.stream(role);
+        if self.feed.switch(stream) {
+            self.outbox.push(ClientMessage::Stream(stream));
+        }
+    }
+
+    /// Asks for a place, or for the next game.
+    pub(crate) fn play(&mut self) {
+        if !self.is_leaving && self.can_ask() {
+            self.outbox.push(ClientMessage::Play);
+        }
+    }
+
+    /// Gives the place in the room or in the line back; `false` if there is none.
+    pub(crate) fn leave(&mut self) -> bool {
+        if self.place.is_none() && self.line.is_none() {
             return false;
         }
-        connection.send(ClientMessage::Leave);
-        (self.seat, self.line, self.prediction) = (None, None, None);
+        self.outbox.push(ClientMessage::Leave);
+        (self.place, self.line, self.prediction) = (None, None, None);
         self.is_leaving = true;
         true
     }
 
-    /// Brings the picture to local time `now`: pings, plays the player's hands, predicts, lets events be seen.
-    pub(crate) fn advance(&mut self, now: f64, controls: &mut Controls, connection: &Connection) {
-        self.ping(now, connection);
-        let dt = self.table.scene.tick_seconds;
-        let Some(live) = self.clock.tick_at(now) else { return };
-        let loose = self.moment().map_or(0, |moment| moment.balls.iter().filter(|ball| !ball.is_held).count());
-        let Some(newest) = self.snapshots.newest() else { return };
-        let lead = self.lead.at(now, MARGIN, MOST_LEAD) / dt;
-        let turn = self.seat.filter(|&seat| newest.phase().has_turn(seat));
-
-        let Some(seat) = turn else {
-            self.prediction = None;
-            controls.frame(now, 0, false, |_, _| {});
-            let target = live - DELAY / dt;
-            // A turn that ends takes the picture from ahead of the server to behind it: it waits instead of going back.
-            let waits = self.shown > target && self.shown - target < MOST_WAIT / dt;
-            self.shown = if waits { self.shown } else { target };
-            let (from, effects) = (self.events_shown, &mut self.effects);
-            self.snapshots.take_events(self.shown, |event| {
-                if event.tick >= from {
-                    effects.note(&event, &self.table, loose, now);
-                }
-            });
-            self.events_shown = from.max(self.shown.max(0.0) as u64);
-            return;
-        };
-
-        let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD / dt);
-        let prediction = match &mut self.prediction {
-            Some(prediction) if prediction.seat() == seat && (prediction.tick() as f64) < target + MOST_EXCESS / dt => {
-                match prediction.confirm(newest) {
-                    Some(Verdict::Right) => self.counts.right += 1,
-                    Some(Verdict::Wrong) => self.counts.wrong += 1,
-                    Some(Verdict::Unknown) | None => {}
-                }
-                prediction
-            }
-            other => other.insert(Prediction::new(newest, seat)),
-        };
-        // After a frame that took long, its first tick is too early for an input to arrive in time.
-        let earliest = (live + lead - (MARGIN - EARLY) / dt).max(0.0).ceil() as u64;
-        controls.frame(now, earliest.max(prediction.tick()), true, |tick, action| {
-            let tick = prediction.act(tick, action);
-            connection.send(ClientMessage::Act { tick, action });
-        });
-        let (from, effects) = (self.events_shown, &mut self.effects);
-        prediction.advance(target.max(0.0) as u64, |event| {
-            if event.tick >= from {
-                effects.note(event, &self.table, loose, now);
-            }
-        });
-        self.events_shown = from.max(prediction.tick());
-        self.shown = target.max(prediction.tick() as f64);
-        self.counts.lead = lead;
-        // They were seen when they were predicted.
-        self.snapshots.take_events(f64::INFINITY, |_| {});
+    /// Votes for something that the crowd may do, by its place among those.
+    pub(crate) fn vote(&mut self, action: u8) {
+        let count = self.table.rules.crowd.as_ref().map_or(0, |crowd| crowd.actions.len());
+        let is_playing = self.newest().is_some_and(|game| matches!(game.phase(), Phase::Play { .. }));
+        if self.mode == Mode::Crowd && self.place.is_none() && is_playing && usize::from(action) < count {
+            self.vote = Some(action);
+            self.outbox.push(ClientMessage::Vote { action });
+        }
     }
 
-    /// What is to be seen; `None` before the first snapshot.
-    pub(crate) fn moment(&self) -> Option<Moment<'_>> {
-        match &self.prediction {
-            Some(prediction) => Some(prediction.now((self.shown - prediction.tick() as f64).clamp(0.0, 1.0))),
-            None => self.snapshots.at(self.shown),
+    /// Looks at another board, so many further on.
+    pub(crate) fn look(&mut self, further: i8) {
+        let count = self.boards.len() as i64;
+        self.chosen = (self.main_board() as i64 + i64::from(further)).rem_euclid(count) as usize;
+    }
+
+    /// What is to be sent since the last call.
+    pub(crate) fn take_outgoing(&mut self) -> std::vec::Drain<'_, ClientMessage> {
+        self.outbox.drain(..)
+    }
+
+    /// What is to be seen of a board; `None` before the first full snapshot.
+    pub(crate) fn moment(&self, board: usize) -> Option<Moment<'_>> {
+        let Board { snapshots, shown, .. } = self.boards.get(board)?;
+        if let Some(prediction) = self.prediction.as_ref().filter(|_| self.own_board() == Some(board)) {
+            return Some(prediction.now((shown - prediction.tick() as f64).clamp(0.0, 1.0)));
         }
+        if self.is_stepped() {
+            let game = self.feed.games().get(board)?;
+            return Some(Moment::of(game, (shown - game.tick() as f64).clamp(0.0, 1.0)));
+        }
+        snapshots.at(*shown)
     }
 
     /// Whether the server has said nothing for a while.
@@ -286,14 +301,29 @@ impl Session {
         &self.table
     }
 
+    /// How the room is played.
+    pub(crate) fn mode(&self) -> Mode {
+        self.mode
+    }
+
     /// Who is there.
     pub(crate) fn roster(&self) -> &Roster {
         &self.roster
     }
 
-    /// The seat of the person at this window.
-    pub(crate) fn seat(&self) -> Option<u8> {
-        self.seat
+    /// What the crowd is voting for.
+    pub(crate) fn tally(&self) -> &Tally {
+        &self.tally
+    }
+
+    /// What the person at this window voted for.
+    pub(crate) fn voted(&self) -> Option<u8> {
+        self.vote
+    }
+
+    /// The place of the person at this window.
+    pub(crate) fn place(&self) -> Option<u8> {
+        self.place
     }
 
     /// Their place in the line, from 1.
@@ -301,41 +331,65 @@ impl Session {
         self.line
     }
 
-    /// What past events have left to be seen.
-    pub(crate) fn effects(&self) -> &Effects {
-        &self.effects
+    /// How many places for players the room has.
+    pub(crate) fn places(&self) -> usize {
+        usize::from(self.places)
+    }
+
+    /// How many boards there are.
+    pub(crate) fn board_count(&self) -> usize {
+        self.boards.len()
+    }
+
+    /// The board that is seen large: one's own, or the one that a spectator chose.
+    pub(crate) fn main_board(&self) -> usize {
+        self.own_board().unwrap_or(self.chosen).min(self.boards.len() - 1)
+    }
+
+    /// Board and seat of a place.
+    pub(crate) fn board_and_seat(&self, place: u8) -> (usize, u8) {
+        match self.mode {
+            Mode::HeadToHead => (usize::from(place), 0),
+            Mode::Challenge | Mode::Crowd => (0, place),
+        }
+    }
+
+    /// What past events on a board have left to be seen.
+    pub(crate) fn effects(&self, board: usize) -> Option<&Effects> {
+        self.boards.get(board).map(|board| &board.effects)
     }
 
     /// The same, to let it fade.
-    pub(crate) fn effects_mut(&mut self) -> &mut Effects {
-        &mut self.effects
+    pub(crate) fn effects_mut(&mut self, board: usize) -> Option<&mut Effects> {
+        self.boards.get_mut(board).map(|board| &mut board.effects)
     }
 
     /// What was counted.
     pub(crate) fn counts(&self) -> Counts {
-        self.counts
+        Counts { mismatches: self.feed.mismatches(), ..self.counts }
     }
 
-    /// Whether there is something to ask for: a seat, a place in the line, the next game.
+    fn own_board(&self) -> Option<usize> {
+        self.place.map(|place| self.board_and_seat(place).0)
+    }
+
+    /// The copies are stepped along with the picture. Whoever plays needs them as new as can be.
+    fn is_stepped(&self) -> bool {
+        self.place.is_none() && self.feed.form() == Form::Inputs
+    }
+
+    /// The newest state of the board that is seen large.
+    fn newest(&self) -> Option<&Game> {
+        self.feed.games().get(self.main_board())
+    }
+
+    /// Whether there is something to ask for: a place, a place in the line, the next game.
     fn can_ask(&self) -> bool {
-        let is_playing = self.snapshots.newest().is_some_and(|game| matches!(game.phase(), Phase::Play { .. }));
-        match self.seat {
+        let is_playing = self.feed.games().iter().any(|game| matches!(game.phase(), Phase::Play { .. }));
+        match self.place {
             Some(_) => !is_playing,
             None => self.line.is_none(),
         }
-    }
-
-    fn ping(&mut self, now: f64, connection: &Connection) {
-        if now < self.next_ping {
-            return;
-        }
-        self.next_ping = now + PING_EVERY;
-        self.nonce += 1;
-        if self.pings.len() == MOST_PINGS {
-            self.pings.pop_front();
-        }
-        self.pings.push_back((self.nonce, now));
-        connection.send(ClientMessage::Ping { nonce: self.nonce });
     }
 }
 

@@ -1,4 +1,4 @@
-//! The last few snapshots of a spectator, who sees the game a little late, so that there is always a snapshot on either
+//! The last few states of a board that somebody watches, who sees the game a little late, so that there is always a state on either
 //! side of what is drawn.
 //!
 //! A ball between two snapshots is not guessed: each snapshot carries its flight, and the later one's is exact from
@@ -9,15 +9,15 @@ use std::collections::VecDeque;
 use std::sync::Arc;
 
 use shared::game::{Game, GameEvent};
-use shared::physics::StateError;
 use shared::physics::ball::Ball;
-use shared::protocol::Snapshot;
 use shared::table::Table;
 
 use crate::moment::{Moment, Motion, instant};
 
-/// Snapshots kept: enough for a fifth of a second of delay. A burst after a stall pushes out what is past anyway.
-const KEPT: usize = 12;
+/// Snapshots kept: enough for half a second of delay. A burst after a stall pushes out what is past anyway.
+const KEPT: usize = 32;
+/// Seconds between two snapshots beyond which nothing in between is known: what came before is forgotten.
+const MOST_GAP: f64 = 0.5;
 /// Events that wait to be shown; older ones are dropped.
 const MOST_EVENTS: usize = 1024;
 /// Ticks that the newest flight is followed beyond its snapshot, when the next one is late. Longer: a ball flies
@@ -40,25 +40,30 @@ impl SnapshotBuffer {
         Self { table, games: VecDeque::new(), events: VecDeque::new() }
     }
 
-    /// Takes in a snapshot.
-    ///
-    /// # Errors
-    /// If it does not fit the table.
-    pub(crate) fn push(&mut self, snapshot: Snapshot) -> Result<(), StateError> {
-        let mut game = Game::new(Arc::clone(&self.table));
-        game.restore(snapshot.state)?;
-        if self.newest().is_some_and(|newest| newest.tick() >= game.tick()) {
-            return Ok(());
+    /// Takes in something that happened.
+    pub(crate) fn note(&mut self, event: GameEvent) {
+        if self.events.len() == MOST_EVENTS {
+            self.events.pop_front();
+        }
+        self.events.push_back(event);
+    }
+
+    /// Takes in a game as it was sent, and what happened in it since the one before.
+    pub(crate) fn push(&mut self, game: Game, events: impl IntoIterator<Item = GameEvent>) {
+        events.into_iter().for_each(|event| self.note(event));
+        if let Some(newest) = self.newest() {
+            let since = game.tick() as f64 - newest.tick() as f64;
+            if since <= 0.0 {
+                return;
+            }
+            if since * self.table.scene.tick_seconds > MOST_GAP {
+                self.games.clear();
+            }
         }
         if self.games.len() == KEPT {
             self.games.pop_front();
         }
         self.games.push_back(game);
-        self.events.extend(snapshot.events);
-        while self.events.len() > MOST_EVENTS {
-            self.events.pop_front();
-        }
-        Ok(())
     }
 
     /// The game of the last snapshot.
@@ -163,7 +168,7 @@ mod tests {
         let (mut sum, mut worst, mut count, mut far) = (0.0, 0.0_f64, 0_u32, 0_u32);
         play(120_000, |game| {
             if game.tick() * 60 / 1000 != (game.tick() - 1) * 60 / 1000 {
-                buffer.push(Snapshot { state: game.state(), events: Vec::new() }).unwrap();
+                buffer.push(game.clone(), []);
             }
             truth.push_back((game.tick(), Moment::of(game, 0.0).balls));
             if truth.len() > 33 {
@@ -199,7 +204,7 @@ mod tests {
             made += game.events().len();
             last = game.tick();
             if game.tick().is_multiple_of(17) {
-                buffer.push(Snapshot { state: game.state(), events: std::mem::take(&mut events) }).unwrap();
+                buffer.push(game.clone(), std::mem::take(&mut events));
             }
         });
         let (mut shown, mut at) = (0, 0);
@@ -218,24 +223,26 @@ mod tests {
         let mut buffer = SnapshotBuffer::new(table());
         assert!(buffer.at(5.0).is_none());
         let mut newest = None;
-        play(3000, |game| newest = Some(game.state()));
-        let state = newest.unwrap();
-        buffer.push(Snapshot { state: state.clone(), events: Vec::new() }).unwrap();
+        play(3000, |game| newest = Some(game.clone()));
+        let game = newest.unwrap();
+        buffer.push(game.clone(), []);
         assert_eq!(buffer.at(5.0).unwrap().game.tick(), 3000);
         let late = buffer.at(9e9).unwrap().balls;
         let limit = buffer.at(3000.0 + BEYOND).unwrap().balls;
         assert_eq!(late, limit);
         // The same or an older one again changes nothing.
-        buffer.push(Snapshot { state, events: Vec::new() }).unwrap();
+        buffer.push(game.clone(), []);
         assert_eq!(buffer.games.len(), 1);
     }
 
     #[test]
-    fn a_snapshot_of_another_table_is_refused() {
+    fn nothing_is_made_up_between_two_snapshots_that_are_far_apart() {
         let mut buffer = SnapshotBuffer::new(table());
-        let mut state = Game::new(table()).state();
-        state.world.flippers.pop();
-        assert!(buffer.push(Snapshot { state, events: Vec::new() }).is_err());
-        assert!(buffer.newest().is_none());
+        play(3000, |game| {
+            if matches!(game.tick(), 1000 | 1200 | 3000) {
+                buffer.push(game.clone(), []);
+            }
+        });
+        assert_eq!((buffer.games.len(), buffer.at(1100.0).unwrap().game.tick()), (1, 3000));
     }
 }

@@ -1,4 +1,5 @@
-//! What tick it is on the server: an estimate from when snapshots arrive, and how far ahead of it a player must act.
+//! What tick it is on the server: an estimate from when frames arrive, how far behind it a spectator can see everything in
+//! time, and how far ahead of it a player must act.
 //!
 //! Pure functions of injected times (seconds of one local clock); no clock is read here.
 
@@ -13,6 +14,19 @@ const SLEW: f64 = 0.05;
 const JUMP: f64 = 0.25;
 /// Round trips that count: at four pings a second, the last two seconds.
 const ROUND_TRIPS: usize = 8;
+
+/// Seconds for which a late arrival makes the picture later.
+const LATE_WINDOW: f64 = 5.0;
+/// Share of the arrivals that, with one more, may come later than the picture allows for: each is a moment in which it stands
+/// still. Smaller: whatever keeps this machine busy for a moment makes the picture late for seconds.
+const TOO_LATE: f64 = 0.04;
+/// Seconds by which frames should be earlier than the picture needs them: arrivals are seen once a frame, and the server wakes
+/// every 4 ms.
+const SPARE: f64 = 0.005;
+/// Seconds of lateness that the picture allows for at the most.
+const MOST_LATE: f64 = 0.5;
+/// Answers to pings that count for the server's true tick.
+const ANSWERS: usize = 4;
 
 /// A number that follows another one without a visible jerk, unless it is far off.
 #[derive(Debug, Clone, Copy, Default)]
@@ -52,12 +66,19 @@ impl ServerClock {
         Self { tick_seconds, arrivals: VecDeque::new(), offset: Slewed::default() }
     }
 
-    /// The state of `tick` arrived.
-    pub(crate) fn arrived(&mut self, tick: u64, at: f64) {
-        self.arrivals.push_back((at, tick as f64 * self.tick_seconds - at));
+    /// The frame that leads to `tick` arrived; returns the server's time minus the local one by that frame alone, seconds.
+    pub(crate) fn arrived(&mut self, tick: u64, at: f64) -> f64 {
+        let offset = tick as f64 * self.tick_seconds - at;
+        self.arrivals.push_back((at, offset));
         while self.arrivals.front().is_some_and(|(then, _)| at - then > WINDOW) {
             self.arrivals.pop_front();
         }
+        offset
+    }
+
+    /// The server's time minus the local one as last used, seconds.
+    pub(crate) fn offset(&self) -> f64 {
+        self.offset.value.unwrap_or(0.0)
     }
 
     /// The tick, with its fraction, that the server plays at local time `now`; `None` before the first arrival.
@@ -66,6 +87,65 @@ impl ServerClock {
         let target = self.arrivals.iter().map(|(_, offset)| *offset).reduce(f64::max)?;
         let offset = self.offset.advance(target, now);
         Some(((now + offset) / self.tick_seconds).max(0.0))
+    }
+}
+
+/// How far behind a [`ServerClock`] the picture of a spectator must be, so that what it shows has nearly always come: until the
+/// next frame, and as late as that may be.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Delay {
+    /// (Local time, server time minus local time) of arrivals.
+    arrivals: VecDeque<(f64, f64)>,
+    delay: Slewed,
+}
+
+impl Delay {
+    /// A frame arrived, by which the server's time minus the local one is `offset`.
+    pub(crate) fn arrived(&mut self, at: f64, offset: f64) {
+        self.arrivals.push_back((at, offset));
+        while self.arrivals.front().is_some_and(|(then, _)| at - then > LATE_WINDOW) {
+            self.arrivals.pop_front();
+        }
+    }
+
+    /// Seconds to be behind at local time `now` a clock that is `offset` ahead of the local one, where a frame comes every
+    /// `interval` seconds.
+    pub(crate) fn at(&mut self, now: f64, interval: f64, offset: f64) -> f64 {
+        // Against the clock as it is now: that may have believed an early frame for a while.
+        let mut late: Vec<f64> = self.arrivals.iter().map(|(_, by_frame)| (offset - by_frame).max(0.0)).collect();
+        late.sort_unstable_by(|a, b| b.total_cmp(a));
+        let late = late.get((late.len() as f64 * TOO_LATE) as usize + 1).copied().unwrap_or(0.0);
+        self.delay.advance(interval + late.min(MOST_LATE) + SPARE, now)
+    }
+}
+
+/// The tick that the server really plays, from its answers to pings: for telling how far behind the picture is.
+#[derive(Debug, Clone)]
+pub(crate) struct TrueClock {
+    tick_seconds: f64,
+    /// Server time minus local time by the last answers, seconds.
+    offsets: VecDeque<f64>,
+}
+
+impl TrueClock {
+    /// A clock that knows nothing yet.
+    pub(crate) fn new(tick_seconds: f64) -> Self {
+        Self { tick_seconds, offsets: VecDeque::new() }
+    }
+
+    /// An answer came at local time `at` that took `trip` seconds there and back, and said that it was `tick`.
+    pub(crate) fn answered(&mut self, tick: u64, at: f64, trip: f64) {
+        if self.offsets.len() == ANSWERS {
+            self.offsets.pop_front();
+        }
+        self.offsets.push_back(tick as f64 * self.tick_seconds + trip / 2.0 - at);
+    }
+
+    /// The tick at local time `now`. A server steps its ticks in batches, so that what it says may be old by one of them, but never
+    /// too new: the largest counts.
+    pub(crate) fn tick_at(&self, now: f64) -> Option<f64> {
+        let offset = self.offsets.iter().copied().reduce(f64::max)?;
+        Some((now + offset) / self.tick_seconds)
     }
 }
 
@@ -172,6 +252,88 @@ mod tests {
         // It lost a second more.
         clock.arrived(2101, 3.201);
         assert_eq!(clock.tick_at(3.201), Some(2101.0));
+    }
+
+    /// A spectator's stream at `hz` with `wait(k)` seconds from the k-th frame to its arrival: how far behind the server the picture
+    /// is, the first two seconds left out, at the most, seconds; and the share of pictures for which the frame had not come.
+    fn watch(hz: f64, mut wait: impl FnMut(u32) -> f64) -> (f64, f64) {
+        let (mut clock, mut delay) = (ServerClock::new(DT), Delay::default());
+        let interval = 1.0 / hz;
+        let mut arrivals: Vec<(f64, u64)> = Vec::new();
+        for k in 1..(20.0 * hz) as u32 {
+            let sent = f64::from(k) * interval;
+            let before = arrivals.last().map_or(0.0, |last| last.0);
+            arrivals.push(((sent + wait(k)).max(before), (sent / DT).round() as u64));
+        }
+        let (mut next, mut confirmed) = (0, 0);
+        let (mut worst, mut missed, mut pictures) = (0.0_f64, 0_u32, 0_u32);
+        for frame in 0..19 * 60_u32 {
+            let now = f64::from(frame) / 60.0;
+            while next < arrivals.len() && arrivals[next].0 <= now {
+                let (at, tick) = arrivals[next];
+                delay.arrived(at, clock.arrived(tick, at));
+                (confirmed, next) = (tick, next + 1);
+            }
+            let Some(live) = clock.tick_at(now) else { continue };
+            let target = live - delay.at(now, interval, clock.offset()) / DT;
+            if now > 2.0 {
+                pictures += 1;
+                missed += u32::from(target > confirmed as f64);
+                worst = worst.max(now - target.min(confirmed as f64) * DT);
+            }
+        }
+        (worst, f64::from(missed) / f64::from(pictures))
+    }
+
+    #[test]
+    fn a_spectator_is_not_far_behind_and_frames_are_nearly_always_there() {
+        let mut rng = Rng::new(4);
+        // Ten a second, in the last slot of the interval, with a jitter of ten milliseconds.
+        let (behind, missed) = watch(10.0, |_| 0.099 + 0.010 * rng.between(0.0, 1.0));
+        assert!(behind < 0.250 && missed < 0.01, "{behind} s behind, {missed} missed");
+        // Sixty a second, in slots of 16 ms: how long a frame waits for its slot goes round.
+        let (behind, missed) = watch(60.0, |k| (f64::from(k) * 0.016 / 24.0) % 0.016 + 0.001 * rng.between(0.0, 1.0));
+        assert!(behind < 0.050 && missed < 0.03, "{behind} s behind, {missed} missed");
+        // The first frame comes with the welcome's news, before its slot.
+        let (behind, missed) = watch(10.0, |k| if k == 1 { 0.0 } else { 0.099 });
+        assert!(behind < 0.210 && missed < 0.01, "{behind} s behind, {missed} missed");
+        // Without jitter it is an interval and what is spared.
+        let (behind, missed) = watch(10.0, |_| 0.0);
+        assert!(behind < 0.107 && missed == 0.0, "{behind} s behind, {missed} missed");
+    }
+
+    #[test]
+    fn jitter_makes_the_picture_later_and_is_forgotten() {
+        let mut delay = Delay::default();
+        assert_eq!(delay.at(0.0, 0.1, 0.0), 0.1 + SPARE);
+        for k in 1..=50_u32 {
+            delay.arrived(f64::from(k) * 0.1, if k % 10 == 0 { -0.08 } else { -0.01 });
+        }
+        // As slowly as the clock may run.
+        let early = delay.at(0.5, 0.1, 0.0);
+        assert!((early - 0.13).abs() < 1e-9, "{early}");
+        assert!((delay.at(9.0, 0.1, 0.0) - 0.18 - SPARE).abs() < 1e-9);
+        for k in 51..=110_u32 {
+            delay.arrived(f64::from(k) * 0.1, 0.0);
+        }
+        assert!((delay.at(20.0, 0.1, 0.0) - 0.1 - SPARE).abs() < 1e-9);
+        // One in a hundred does not count.
+        delay.arrived(11.05, -0.4);
+        assert!((delay.at(30.0, 0.1, 0.0) - 0.1 - SPARE).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_true_tick_is_the_latest_that_an_answer_allows() {
+        let mut clock = TrueClock::new(DT);
+        assert_eq!(clock.tick_at(1.0), None);
+        clock.answered(996, 1.05, 0.1);
+        clock.answered(2000, 2.05, 0.1);
+        assert_eq!(clock.tick_at(3.0), Some(3000.0));
+        // A server that lost time is believed once nobody remembers better.
+        for k in 3..3 + ANSWERS as u64 {
+            clock.answered(k * 1000 - 500, k as f64, 0.0);
+        }
+        assert_eq!(clock.tick_at(10.0), Some(9500.0));
     }
 
     #[test]

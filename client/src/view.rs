@@ -23,10 +23,27 @@ pub(crate) struct View {
     pub(crate) popups: Vec<Popup>,
     /// What the display and the side panel say.
     pub(crate) hud: Hud,
+    /// Somebody has dimmed the lights.
+    pub(crate) dimmed: bool,
+    /// The other boards of the room, to be drawn small.
+    pub(crate) others: Vec<OtherBoard>,
     /// What the physics sees, while somebody wants to see it.
     pub(crate) overlay: Option<OverlayView>,
     /// Seconds since the client started: for blinking and attract-mode light shows, never for physics.
     pub(crate) clock: f32,
+}
+
+/// A board that is drawn small.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct OtherBoard {
+    /// What is on it. Its words are not drawn.
+    pub(crate) view: View,
+    /// Who plays it.
+    pub(crate) name: String,
+    /// Points.
+    pub(crate) score: u64,
+    /// A word below that, such as `BALL 2`.
+    pub(crate) state: String,
 }
 
 /// A ball.
@@ -71,7 +88,13 @@ pub(crate) struct Popup {
 pub(crate) struct Hud {
     /// Name of the table.
     pub(crate) table: String,
-    /// One line for each seat that is taken, in order.
+    /// How it is played, such as `HEAD TO HEAD`.
+    pub(crate) title: String,
+    /// What the crowd has and may do, where it plays.
+    pub(crate) crowd: Option<CrowdView>,
+    /// Two short lines that whoever plays must see at once, or empty.
+    pub(crate) alarm: Option<[String; 2]>,
+    /// One line for each player, and for the crowd where it plays.
     pub(crate) seats: Vec<SeatView>,
     /// Ball that is played, from 1; 0 outside a game.
     pub(crate) ball: u32,
@@ -87,8 +110,10 @@ pub(crate) struct Hud {
     pub(crate) keys: Vec<(String, String)>,
     /// How many watch.
     pub(crate) spectators: u32,
-    /// Who waits for a seat, first in line first.
+    /// Who waits for a seat, first in line first; the first of them.
     pub(crate) queue: Vec<String>,
+    /// How many wait.
+    pub(crate) waiting: u32,
     /// A big line over the playfield (the title of the attract screen, `GAME OVER`, a lost connection), or empty.
     pub(crate) banner: String,
     /// A smaller line under the banner, or empty.
@@ -106,6 +131,52 @@ pub(crate) struct SeatView {
     pub(crate) active: bool,
     /// The person at this window.
     pub(crate) you: bool,
+    /// Games won in a row.
+    pub(crate) wins: u32,
+}
+
+/// What the crowd has and may do.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct CrowdView {
+    /// What it has to spend, and how much that can grow to.
+    pub(crate) energy: (u32, u32),
+    /// What it may do, in order.
+    pub(crate) actions: Vec<CrowdActionView>,
+    /// Seconds until votes are counted.
+    pub(crate) closes_in: Option<f32>,
+    /// The person at this window may vote.
+    pub(crate) can_vote: bool,
+}
+
+/// Something that the crowd may do.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct CrowdActionView {
+    /// What it is.
+    pub(crate) name: String,
+    /// Energy that it takes.
+    pub(crate) cost: u32,
+    /// How it stands.
+    pub(crate) state: CrowdActionState,
+    /// Votes for it.
+    pub(crate) votes: u32,
+    /// One of them is from this window.
+    pub(crate) yours: bool,
+}
+
+/// How something that the crowd may do stands.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) enum CrowdActionState {
+    /// It can be had.
+    #[default]
+    Ready,
+    /// There is not enough energy.
+    TooDear,
+    /// It is announced: seconds until then.
+    Announced(f32),
+    /// It is at work: for so many seconds more.
+    AtWork(f32),
+    /// It cools down: seconds until it can be had again.
+    CoolsDown(f32),
 }
 
 /// What the physics sees, in lines and words.

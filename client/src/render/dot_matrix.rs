@@ -106,7 +106,7 @@ pub(super) fn cells(width: f32, pitch: u16) -> u16 {
 }
 
 /// A whole number with a comma between each three digits.
-pub(super) fn grouped(number: u64) -> String {
+pub(crate) fn grouped(number: u64) -> String {
     let digits = number.to_string();
     let mut text = String::with_capacity(digits.len() * 4 / 3);
     for (index, digit) in digits.chars().enumerate() {

@@ -35,6 +35,7 @@ use crate::view::View;
 use atlas::{Batch, Sprite};
 use back_buffer::BackBuffer;
 use dot_matrix::Fonts;
+pub(crate) use dot_matrix::grouped;
 use hud::Writer;
 use layout::{Layout, PixelSize};
 use overlay::OverlayPainter;

@@ -5,12 +5,13 @@ use std::time::{Duration, Instant};
 
 use macroquad::input::KeyCode;
 use shared::game::Phase;
-use shared::protocol::{Hello, Role};
+use shared::protocol::{Hello, Role, Stream};
 use shared::table::Table;
 
 use super::*;
+use crate::controls::Controls;
 use crate::embedded::Embedded;
-use crate::net::Incoming;
+use crate::net::{Connection, Incoming};
 
 /// A client without a window.
 struct Client {
@@ -23,12 +24,12 @@ struct Client {
 impl Client {
     fn join(embedded: &Embedded, role: Role) -> Self {
         let epoch = Instant::now();
-        let hello = Hello { name: "test".to_owned(), role };
+        let hello = Hello { name: "test".to_owned(), role, stream: Stream::of(role) };
         let mut connection = Connection::open(embedded.address().to_string(), hello, epoch).unwrap();
         loop {
             match connection.poll() {
                 Some(Incoming::Welcome(welcome)) => {
-                    let session = Session::new(&welcome).unwrap();
+                    let session = Session::new(&welcome, StreamChoice::default(), role).unwrap();
                     return Self { epoch, connection, session, controls: Controls::default() };
                 }
                 Some(other) => panic!("{other:?}"),
@@ -47,7 +48,8 @@ impl Client {
                 self.session.hear(at, message).unwrap();
             }
             let now = self.epoch.elapsed().as_secs_f64();
-            self.session.advance(now, &mut self.controls, &self.connection);
+            self.session.advance(now, &mut self.controls);
+            self.session.take_outgoing().for_each(|message| self.connection.send(message));
             if done(&self.session) {
                 return true;
             }
@@ -69,18 +71,18 @@ fn embedded() -> Embedded {
 
 /// Whether what is to be seen is a game in which a ball is in play.
 fn has_ball(session: &Session) -> bool {
-    session.moment().is_some_and(|moment| !moment.balls.is_empty())
+    session.moment(0).is_some_and(|moment| !moment.balls.is_empty())
 }
 
 #[test]
 fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
     let embedded = embedded();
     let mut client = Client::join(&embedded, Role::Play);
-    assert!(client.run(|session| session.seat() == Some(0) && has_ball(session)), "no ball was served");
+    assert!(client.run(|session| session.place() == Some(0) && has_ball(session)), "no ball was served");
     client.run_for(0.3);
 
     // A key's frame already shows the flipper on its way.
-    let swing = |session: &Session| session.moment().map_or(0.0, |moment| moment.flippers[0]);
+    let swing = |session: &Session| session.moment(0).map_or(0.0, |moment| moment.flippers[0]);
     assert_eq!(swing(&client.session), 0.0);
     client.controls.key_down(KeyCode::LeftShift);
     std::thread::sleep(Duration::from_millis(16));
@@ -93,18 +95,18 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
     client.run_for(1.1);
     client.controls.key_up(KeyCode::Space);
     client.run_for(1.5);
-    let flies = client.session.moment().is_some_and(|m| m.balls.iter().any(|ball| ball.position.y > 0.3));
+    let flies = client.session.moment(0).is_some_and(|m| m.balls.iter().any(|ball| ball.position.y > 0.3));
     assert!(flies, "the plunger launched nothing");
     let counts = client.session.counts();
     // A busy machine may deliver an input late; it must stay the exception.
     assert!(counts.right > 50 && counts.wrong <= 3, "{counts:?}");
 
     // Who leaves watches, and may ask again only once the server has said so.
-    assert!(client.session.leave(&client.connection));
-    assert!(!client.session.leave(&client.connection));
+    assert!(client.session.leave());
+    assert!(!client.session.leave());
     assert!(client.run(|session| !session.is_leaving));
-    client.session.play(&client.connection);
-    assert!(client.run(|session| session.seat() == Some(0)));
+    client.session.play();
+    assert!(client.run(|session| session.place() == Some(0)));
 }
 
 #[test]
@@ -117,9 +119,9 @@ fn a_nudge_is_seen_at_once_and_predicted_rightly() {
     };
     let embedded = Embedded::start(Arc::new(Table::parse("classic.ron", &source).unwrap())).unwrap();
     let mut client = Client::join(&embedded, Role::Play);
-    assert!(client.run(|session| session.seat() == Some(0) && has_ball(session)), "no ball was served");
+    assert!(client.run(|session| session.place() == Some(0) && has_ball(session)), "no ball was served");
     client.run_for(0.3);
-    let cabinet = |session: &Session| session.moment().map_or(0.0, |moment| moment.cabinet.x);
+    let cabinet = |session: &Session| session.moment(0).map_or(0.0, |moment| moment.cabinet.x);
     assert_eq!(cabinet(&client.session), 0.0);
     client.controls.key_down(KeyCode::Q);
     std::thread::sleep(Duration::from_millis(16));
@@ -142,28 +144,35 @@ fn a_nudge_is_seen_at_once_and_predicted_rightly() {
 fn a_spectator_sees_the_bot() {
     let embedded = embedded();
     let mut client = Client::join(&embedded, Role::Watch);
-    assert!(client.run(|session| has_ball(session) && session.snapshots.newest().is_some()), "the bot did not play");
-    let moment = client.session.moment().unwrap();
+    assert!(client.run(|session| has_ball(session) && session.boards[0].events_shown > 0), "the bot did not play");
+    let moment = client.session.moment(0).unwrap();
     assert!(matches!(moment.game.phase(), Phase::Play { .. }));
-    assert_eq!(client.session.roster().seats[0].as_deref(), Some("BOT"));
-    assert_eq!((client.session.seat(), client.session.roster().spectators), (None, 1));
-    assert!(!client.session.leave(&client.connection), "there is nothing to leave");
+    assert_eq!(client.session.roster().places[0].as_deref(), Some("BOT"));
+    assert_eq!((client.session.place(), client.session.roster().spectators), (None, 1));
+    assert!(!client.session.leave(), "there is nothing to leave");
 }
 
 #[test]
 fn a_strange_welcome_is_refused() {
     let table = Table::shipped("classic").unwrap().unwrap();
-    let welcome =
-        Welcome { client: 1, physics: PHYSICS_VERSION, table_digest: table.digest, table: table.source.clone() };
-    assert!(Session::new(&welcome).is_ok());
+    let welcome = Welcome {
+        room: "test".to_owned(),
+        mode: Mode::Challenge,
+        places: 4,
+        physics: PHYSICS_VERSION,
+        table_digest: table.digest,
+        table: table.source.clone(),
+    };
+    let begin = |welcome: &Welcome| Session::new(welcome, StreamChoice::default(), Role::Watch);
+    assert!(begin(&welcome).is_ok());
     let other = Welcome { physics: PHYSICS_VERSION + 1, ..welcome.clone() };
-    assert!(matches!(Session::new(&other), Err(SessionError::Physics { .. })));
+    assert!(matches!(begin(&other), Err(SessionError::Physics { .. })));
     let other = Welcome { table_digest: 5, ..welcome.clone() };
-    assert!(matches!(Session::new(&other), Err(SessionError::Digest)));
+    assert!(matches!(begin(&other), Err(SessionError::Digest)));
     let asking = table.source.replacen("name:", "accuracy: (tolerance: 0.0001, horizon: Bounces(5)), name:", 1);
     let digest = Table::parse("asking.ron", &asking).unwrap().digest;
     let other = Welcome { table: asking, table_digest: digest, ..welcome.clone() };
-    assert!(matches!(Session::new(&other), Err(SessionError::Unresolved)));
+    assert!(matches!(begin(&other), Err(SessionError::Unresolved)));
     let other = Welcome { table: "(".to_owned(), ..welcome };
-    assert!(matches!(Session::new(&other), Err(SessionError::Table(_))));
+    assert!(matches!(begin(&other), Err(SessionError::Table(_))));
 }

@@ -1,0 +1,67 @@
+//! One board of a room as it is to be seen: what was sent of it lately, and what its events leave.
+
+use std::sync::Arc;
+
+use shared::game::{Game, GameEvent};
+use shared::table::Table;
+
+use crate::effects::Effects;
+use crate::snapshots::SnapshotBuffer;
+
+/// Seconds by which the picture may wait for the estimated time after it fell back; beyond that it jumps back.
+const MOST_WAIT: f64 = 0.5;
+
+/// A board.
+#[derive(Debug)]
+pub(super) struct Board {
+    pub(super) snapshots: SnapshotBuffer,
+    pub(super) effects: Effects,
+    /// The tick that is shown.
+    pub(super) shown: f64,
+    /// Events before this tick have been shown.
+    pub(super) events_shown: u64,
+}
+
+impl Board {
+    pub(super) fn new(table: &Arc<Table>) -> Self {
+        let snapshots = SnapshotBuffer::new(Arc::clone(table));
+        Self { snapshots, effects: Effects::default(), shown: 0.0, events_shown: 0 }
+    }
+
+    /// Goes on to `target`. A turn that ends takes the picture from ahead of the server to behind it: it waits instead of
+    /// going back.
+    pub(super) fn show(&mut self, target: f64, tick_seconds: f64) {
+        let waits = self.shown > target && self.shown - target < MOST_WAIT / tick_seconds;
+        if !waits {
+            self.shown = target;
+        }
+    }
+
+    /// Something happened that is to be seen now, unless it was seen before.
+    pub(super) fn note(&mut self, event: &GameEvent, table: &Table, loose: usize, now: f64) {
+        if event.tick >= self.events_shown {
+            self.effects.note(event, table, loose, now);
+        }
+    }
+
+    /// Lets be seen what was sent of the time up to what is shown.
+    pub(super) fn note_sent(&mut self, table: &Table, loose: usize, now: f64) {
+        let Self { snapshots, effects, shown, events_shown } = self;
+        snapshots.take_events(*shown, |event| {
+            if event.tick >= *events_shown {
+                effects.note(&event, table, loose, now);
+            }
+        });
+        self.seen_until(self.shown.max(0.0) as u64);
+    }
+
+    /// Everything before this tick has been seen.
+    pub(super) fn seen_until(&mut self, tick: u64) {
+        self.events_shown = self.events_shown.max(tick);
+    }
+
+    /// Takes in a game as it was sent.
+    pub(super) fn push(&mut self, game: &Game, events: impl IntoIterator<Item = GameEvent>) {
+        self.snapshots.push(game.clone(), events);
+    }
+}
