@@ -1,13 +1,14 @@
 //! Text: the displays of the side panels, and the banner over the playfield.
 
 use macroquad::color::{Color, WHITE};
-use macroquad::math::{Rect, vec2};
+use macroquad::math::{Rect, Vec2, vec2};
 
 use super::atlas::{Batch, Sprite};
 use super::dot_matrix::{ADVANCE, Fonts, ROWS, cells, grouped, measure};
+use super::minis::{Slot, slots};
 use super::palette::{AMBER, AMBER_DIM, DOT_OFF, ICE, IVORY, tint};
 use super::panels::{Panels, USUAL_SEATS, seat_height};
-use crate::view::{Hud, SeatView};
+use crate::view::{Hud, OtherBoard, SeatView, View};
 
 /// What the text is drawn with.
 pub(super) struct Writer<'a> {
@@ -18,22 +19,22 @@ pub(super) struct Writer<'a> {
 
 /// Where a line stands between two edges.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Align {
+pub(super) enum Align {
     Left,
     Middle,
     Right,
 }
 
 impl Writer<'_> {
-    /// Everything in the side panels; the place of the onlookers may be needed for something else.
-    pub(super) fn panels(&mut self, hud: &Hud, clock: f32, with_onlookers: bool) {
-        self.scores(hud, clock);
+    /// Everything in the side panels; returns where other boards of a size in metres are to be drawn. The place of the
+    /// onlookers may be needed for the overlay's words.
+    pub(super) fn panels(&mut self, view: &View, table: Vec2) -> Vec<Slot> {
+        let hud = &view.hud;
+        self.scores(hud, view.clock);
         self.message(hud);
         self.counters(hud);
-        if with_onlookers {
-            self.onlookers(hud);
-        }
         self.keys(hud);
+        if view.overlay.is_none() { self.onlookers(hud, &view.others, table) } else { Vec::new() }
     }
 
     /// Names and points of all seats: large for the one that plays, if there is room; then rows that wait for more.
@@ -57,7 +58,7 @@ impl Writer<'_> {
             if y + rows(pitch) > area.bottom() + 1.0 {
                 return;
             }
-            let color = if seat.active { tint(AMBER, 1.0) } else { tint(AMBER_DIM, 1.0) };
+            let color = if seat.active || hud.crowd.is_some() { tint(AMBER, 1.0) } else { tint(AMBER_DIM, 1.0) };
             let name_color = if seat.you { tint(ICE, if seat.active { 1.0 } else { 0.75 }) } else { color };
             let score = grouped(seat.score);
             let room = if dense { area.w - measure(&score, pitch).x - 2.0 * self.gap() } else { area.w };
@@ -75,6 +76,11 @@ impl Writer<'_> {
         for place in hud.seats.len()..usize::from(USUAL_SEATS) {
             if dense || y + pair > area.bottom() + self.gap() * 1.5 {
                 return;
+            }
+            if let (Some(crowd), true) = (&hud.crowd, place == hud.seats.len()) {
+                self.energy(crowd.energy, area, y, clock);
+                y += pair;
+                continue;
             }
             let invitation = if place == 0 { "NO PLAYERS YET" } else { "" };
             self.line(area, y, invitation, small, Align::Left, tint(AMBER_DIM, 1.0));
@@ -124,11 +130,63 @@ impl Writer<'_> {
         }
     }
 
-    fn onlookers(&mut self, hud: &Hud) {
+    /// How the room is played, who watches and waits; below that what the crowd may do, or other boards, whose places are
+    /// returned.
+    fn onlookers(&mut self, hud: &Hud, others: &[OtherBoard], table: Vec2) -> Vec<Slot> {
         let area = self.panels.onlookers;
         let area = Rect::new(area.x + self.margin(), area.y, area.w - 2.0 * self.margin(), area.h);
         let small = self.panels.small;
         let step = rows(small) * 1.6;
+        let is_short = hud.crowd.is_some() || !others.is_empty();
+        let mut lines = Vec::new();
+        if !hud.title.is_empty() {
+            lines.push((hud.title.clone(), tint(IVORY, 1.0)));
+        }
+        if is_short {
+            let watch = (hud.spectators > 0).then(|| format!("{} WATCHING", hud.spectators));
+            let next = hud.queue.first().map(|name| format!("{name} NEXT"));
+            let words: Vec<String> = watch.into_iter().chain(next).collect();
+            lines.extend((!words.is_empty()).then(|| (words.join(", "), tint(ICE, 0.75))));
+        } else {
+            lines.extend(self.everybody(hud, area.h - step * lines.len() as f32));
+        }
+        // The last line needs no space below it.
+        let room = ((area.h + step - rows(small)) / step) as usize;
+        for ((text, color), line) in lines.iter().take(room).zip(0_u8..) {
+            self.line(area, area.y + step * f32::from(line), text, small, Align::Left, *color);
+        }
+        let top = step * lines.len() as f32 + rows(small) * 0.4;
+        let rest = Rect::new(area.x, area.y + top, area.w, (area.h - top - self.gap()).max(0.0));
+        if let Some(crowd) = &hud.crowd {
+            self.crowd(crowd, rest);
+        }
+        self.others(others, rest, table)
+    }
+
+    /// Names and points of other boards, and where those are to be drawn.
+    fn others(&mut self, others: &[OtherBoard], area: Rect, table: Vec2) -> Vec<Slot> {
+        if others.is_empty() {
+            return Vec::new();
+        }
+        let small = self.panels.small;
+        let step = rows(small) * 1.5;
+        let slots = slots(area, others.len(), table, step * 3.0, self.gap());
+        for (slot, other) in slots.iter().zip(others) {
+            let lines = [
+                (other.name.clone(), tint(AMBER, 1.0)),
+                (grouped(other.score), tint(IVORY, 1.0)),
+                (other.state.clone(), tint(AMBER_DIM, 1.0)),
+            ];
+            for ((text, color), line) in lines.iter().zip(0_u8..) {
+                self.line(slot.words, slot.words.y + step * f32::from(line), text, small, Align::Left, *color);
+            }
+        }
+        slots
+    }
+
+    /// The table, how many watch, who waits: as many lines as there is height for.
+    fn everybody(&self, hud: &Hud, height: f32) -> Vec<(String, Color)> {
+        let step = rows(self.panels.small) * 1.6;
         let mut lines = vec![(hud.table.clone(), tint(IVORY, 0.8))];
         if hud.spectators > 0 {
             lines.push((format!("{} WATCHING", hud.spectators), tint(ICE, 0.75)));
@@ -140,12 +198,13 @@ impl Writer<'_> {
         let waiting = hud.queue.iter().zip(1..).map(|(name, place)| (format!("{place} {name}"), tint(AMBER, 1.0)));
         lines.extend(waiting);
         // The last line needs no space below it.
-        let room = ((area.h + step - rows(small)) / step) as usize;
+        let room = ((height + step - rows(self.panels.small)).max(0.0) / step) as usize;
         if room == 1 && lines.len() > 1 {
-            let text = format!("{} WATCHING, {} IN LINE", hud.spectators, hud.queue.len());
-            lines = vec![(text, tint(ICE, 0.75))];
+            let text = format!("{} WATCHING, {} IN LINE", hud.spectators, hud.waiting);
+            return vec![(text, tint(ICE, 0.75))];
         }
-        if lines.len() > room && room > 0 && !hud.queue.is_empty() {
+        let all_are_named = hud.queue.len() == hud.waiting as usize;
+        if (lines.len() > room || !all_are_named) && room > 0 && !hud.queue.is_empty() {
             // The last line says how many of those in line have no room.
             lines.truncate(room - 1);
             let names = lines.len().saturating_sub(heading);
@@ -153,11 +212,9 @@ impl Writer<'_> {
                 lines.truncate(heading - 1);
             }
             let plus = if names == 0 { "" } else { "+ " };
-            lines.push((format!("{plus}{} IN LINE", hud.queue.len() - names), tint(AMBER_DIM, 1.0)));
+            lines.push((format!("{plus}{} IN LINE", hud.waiting as usize - names), tint(AMBER_DIM, 1.0)));
         }
-        for ((text, color), line) in lines.iter().take(room).zip(0_u8..) {
-            self.line(area, area.y + step * f32::from(line), text, small, Align::Left, *color);
-        }
+        lines
     }
 
     /// Keys at the left, what they do at the right; in two rows each if they are too long for one.
@@ -205,7 +262,7 @@ impl Writer<'_> {
     }
 
     /// A line between the edges of `area`, smaller than `wanted` if it would not fit, cut if it never would.
-    fn line(&mut self, area: Rect, y: f32, text: &str, wanted: u16, align: Align, color: Color) {
+    pub(super) fn line(&mut self, area: Rect, y: f32, text: &str, wanted: u16, align: Align, color: Color) {
         let pitch = self.fonts.fitting(text, wanted, area.w);
         let mut text = text.to_owned();
         while !text.is_empty() && measure(&text, pitch).x > area.w {
@@ -223,7 +280,7 @@ impl Writer<'_> {
     }
 
     /// A row of the display: unlit dots from edge to edge, and a text in them, dot upon dot.
-    fn row(&mut self, area: Rect, y: f32, text: &str, wanted: u16, align: Align, color: Color) {
+    pub(super) fn row(&mut self, area: Rect, y: f32, text: &str, wanted: u16, align: Align, color: Color) {
         let pitch = self.fonts.fitting(text, wanted, area.w);
         let cells = cells(area.w, pitch);
         let text: String = text.chars().take(usize::from(cells)).collect();
@@ -243,7 +300,7 @@ impl Writer<'_> {
         self.fonts.line(self.batch, &text, vec2(left + dots * f32::from(pitch), y), pitch, color);
     }
 
-    fn gap(&self) -> f32 {
+    pub(super) fn gap(&self) -> f32 {
         f32::from(self.panels.small * 4)
     }
 
@@ -266,7 +323,7 @@ fn halves(text: &str) -> Option<[&str; 2]> {
 }
 
 /// Height of a line.
-fn rows(pitch: u16) -> f32 {
+pub(super) fn rows(pitch: u16) -> f32 {
     f32::from(ROWS * pitch)
 }
 
@@ -274,5 +331,6 @@ fn rows(pitch: u16) -> f32 {
 fn seat_name(seat: &SeatView, clock: f32) -> String {
     let arrow = if seat.active && (clock * 2.0).fract() < 0.7 { "> " } else { "  " };
     let you = if seat.you { " (YOU)" } else { "" };
-    format!("{arrow}{}{you}", seat.name)
+    let wins = if seat.wins > 0 { format!(" - {} WON", seat.wins) } else { String::new() };
+    format!("{arrow}{}{you}{wins}", seat.name)
 }

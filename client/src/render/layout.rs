@@ -68,7 +68,7 @@ impl Layout {
     /// Divides a picture for a table of a size in metres.
     pub(super) fn new(size: PixelSize, table: Vec2) -> Self {
         let window = size.to_vec();
-        let outer = table + 2.0 * FRAME;
+        let outer = Self::outer(table);
         let aspect = window.x / window.y;
         let (area, main_panel, side_panel);
         if aspect >= 1.15 {
@@ -100,6 +100,27 @@ impl Layout {
         let corner = (area.center() - fitted / 2.0).round().max(Vec2::ZERO);
         let cabinet = Rect::new(corner.x, corner.y, fitted.x, fitted.y);
         Self { size, cabinet, scale, main_panel, side_panel, table }
+    }
+
+    /// A picture of the table alone, with its frame.
+    pub(super) fn of_table(size: PixelSize, table: Vec2) -> Self {
+        let (window, outer) = (size.to_vec(), Self::outer(table));
+        let scale = (window / outer).min_element();
+        let fitted = outer * scale;
+        let corner = (window - fitted) / 2.0;
+        let cabinet = Rect::new(corner.x, corner.y, fitted.x, fitted.y);
+        let nothing = Rect::default();
+        Self { size, cabinet, scale, main_panel: nothing, side_panel: nothing, table }
+    }
+
+    /// Size of a table with its frame, metres.
+    pub(super) fn outer(table: Vec2) -> Vec2 {
+        table + 2.0 * FRAME
+    }
+
+    /// The same somewhere else.
+    pub(super) fn moved(&self, by: Vec2) -> Self {
+        Self { cabinet: self.cabinet.offset(by), ..self.clone() }
     }
 
     /// The same with the table off its place by so many metres. A real table moves by a millimetre: here it is more, so that

@@ -2,18 +2,20 @@
 //!
 //! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
 //! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
-//! `atlas`) and placed by `scene`, `mechanisms`, `overlay` and `hud`. `layout` and `panels` say where; `back_buffer` shows whole frames only.
+//! `atlas`) and placed by `scene`, `mechanisms`, `overlay`, `hud` and `crowd`; `minis` does both for boards that are small. `layout` and `panels` say where; `back_buffer` shows whole frames only.
 
 mod atlas;
 mod back_buffer;
 mod cabinet;
 mod canvas;
+mod crowd;
 mod dot_matrix;
 mod furniture;
 mod hud;
 mod inserts;
 mod layout;
 mod mechanisms;
+mod minis;
 mod overlay;
 mod palette;
 mod panels;
@@ -38,6 +40,7 @@ use dot_matrix::Fonts;
 pub(crate) use dot_matrix::grouped;
 use hud::Writer;
 use layout::{Layout, PixelSize};
+use minis::Minis;
 use overlay::OverlayPainter;
 use panels::Panels;
 use ramps::Ramps;
@@ -64,6 +67,8 @@ struct Art {
     sprites: Sprites<Sprite>,
     fonts: Fonts,
     batch: Batch,
+    /// For boards that are small; made when there are any.
+    minis: Option<Minis>,
 }
 
 /// Why a frame was given up before it was whole.
@@ -114,7 +119,7 @@ fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &Vie
     if counts.0 != counts.1 {
         return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
     }
-    let Art { layout, panels, still, above, sprites, fonts, batch } = art;
+    let Art { layout, panels, still, above, sprites, fonts, batch, minis } = art;
     let resting = &*layout;
     let layout = &resting.shaken(view.cabinet);
 
@@ -143,9 +148,17 @@ fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &Vie
 
     // 4. Text.
     let mut writer = Writer { panels, fonts, batch };
-    writer.panels(&view.hud, view.clock, view.overlay.is_none());
+    let slots = writer.panels(view, vec2(table.size.0 as f32, table.size.1 as f32));
     writer.banner(&view.hud, sprites.plate, sprites::banner_area(layout, panels));
+    writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(layout, panels), view.clock);
     batch.flush();
+
+    // 5. The boards that are small.
+    for (slot, other) in slots.iter().zip(&view.others) {
+        let current = minis.take().filter(|minis| minis.fits(slot.board));
+        let minis = minis.insert(current.unwrap_or_else(|| Minis::paint(slot.board, table)));
+        minis.draw(slot.board, table, &other.view, blending);
+    }
     Ok(())
 }
 
@@ -169,7 +182,7 @@ impl Art {
         let above = ramps.map(|ramps| canvas::paint_in_bands(size.width, size.height, |canvas| ramps.paint(canvas)));
         let (still, above) = (texture(&picture), above.as_ref().map(texture));
         let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
-        Self { layout, panels, still, above, sprites, fonts, batch }
+        Self { layout, panels, still, above, sprites, fonts, batch, minis: None }
     }
 }
 

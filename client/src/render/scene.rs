@@ -32,6 +32,9 @@ const STREAK_SPEED: f32 = 0.7;
 /// A streak is as long as the way of a ball in this time, seconds.
 const STREAK_TIME: f32 = 0.040;
 
+/// How much of the light is gone when somebody has dimmed it.
+const DIMMED: f32 = 0.80;
+
 /// How much larger a ball looks for each floor that it is nearer to the eye.
 const NEARER: f32 = 1.08;
 /// Floors above this one look no nearer.
@@ -65,6 +68,9 @@ impl Stage<'_> {
         self.batch.flush();
         draw_above();
         self.floor(view, true);
+        if view.dimmed {
+            self.batch.stretch(self.sprites.dot, self.layout.playfield(), tint(Vec3::ZERO, DIMMED));
+        }
         // 4. What floats above.
         self.slaps(view.slaps);
         for popup in &view.popups {
