@@ -1,8 +1,8 @@
 //! The fan-out: one loop that writes to every client. A frame is encoded once and shared by all who follow its stream; a
 //! client is a cursor into the stream's last frames.
 //!
-//! Whoever watches is served once an interval, each in a millisecond of its own, so that no burst holds up the machine;
-//! players are served at once. A client that lags gets all that it missed in one write; past the oldest frame that is kept it
+//! Players are served at once, and so are the first spectators of a stream; whoever comes later is served once an interval,
+//! in one of its milliseconds, so that no burst holds up the machine. A client that lags gets all that it missed in one write; past the oldest frame that is kept it
 //! jumps to the newest full snapshot; one that takes nothing for too long is disconnected.
 
 mod feed;

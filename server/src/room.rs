@@ -22,7 +22,7 @@ use crate::account::Account;
 use crate::broadcast::{NewsKind, Order, Orders};
 use crate::commands::{Command, Heard};
 use crate::config::Config;
-use crate::lobby::{Deed, GameView, Lobby, News};
+use crate::lobby::{Deed, GameView, Lobby, News, Sitter};
 use crate::pacing::{NextWake, Pacer};
 use crate::streams::{Streams, wire};
 use crate::votes::Votes;
@@ -35,7 +35,9 @@ const WAKE_EVERY: Duration = Duration::from_millis(4);
 /// Seconds without a game after which the bot begins one.
 const BOT_PATIENCE: f64 = 3.0;
 /// Seconds after a game until the next begins by itself, if somebody new came up for it.
-const NEXT_GAME_PAUSE: f64 = 8.0;
+const NEXT_GAME_PAUSE: f64 = 6.0;
+/// Seconds for which the result of a game stands before anybody makes room.
+const RESULT_PAUSE: f64 = 2.0;
 /// Seconds between two rosters when only the number of spectators changed.
 const COUNT_PAUSE: f64 = 1.0;
 /// Seconds between two rosters, and between two tallies.
@@ -46,6 +48,14 @@ struct Follower {
     stream: Stream,
     /// The tick from which on another full snapshot is given on request.
     next_full: u64,
+}
+
+/// How a game ended.
+struct Outcome {
+    /// The tick at which the losers make room for who waits.
+    stands_until: u64,
+    /// Places, who had them, and their points.
+    scores: Vec<(u8, Sitter, u64)>,
 }
 
 /// Games and everybody around them.
@@ -68,6 +78,8 @@ pub(crate) struct Room {
     idle_ticks: u64,
     /// Ticks until the next game begins by itself; 0: it does not.
     next_game_in: u64,
+    /// How the last game ended, while that stands.
+    result: Option<Outcome>,
     next_roster: u64,
     next_tally: u64,
     next_client: u32,
@@ -92,6 +104,7 @@ impl Room {
             was_playing: false,
             idle_ticks: 0,
             next_game_in: 0,
+            result: None,
             next_roster: 0,
             next_tally: 0,
             next_client: 1,

@@ -17,6 +17,8 @@ const KEPT_SECONDS: usize = 2;
 const KEPT_NEWS: usize = 16;
 /// Clients that are served before the room may have the core: a tenth of a millisecond.
 const IN_A_ROW: usize = 16;
+/// Spectators who are served as soon as there is a frame, as players are: so few take less than half a slot.
+pub(super) const AT_ONCE: usize = 48;
 /// The place of those who are served at once.
 const PROMPT: usize = 0;
 
@@ -109,7 +111,7 @@ impl Feed {
 
     /// Takes a subscriber in, and says in which slot.
     pub(super) fn place(&mut self, subscriber: Subscriber) -> usize {
-        let slot = if subscriber.is_prompt {
+        let slot = if subscriber.is_prompt || self.slots[PROMPT].len() < AT_ONCE {
             PROMPT
         } else {
             let intervals = self.slots.len() - 1;
@@ -129,7 +131,12 @@ impl Feed {
     /// Serves those whose turn it is; returns who is gone.
     pub(super) fn serve_slot(&mut self, slot: u64, terms: &Terms<'_>) -> Vec<u32> {
         let intervals = (self.slots.len() - 1) as u64;
-        self.serve(1 + (slot % intervals) as usize, terms)
+        let mut gone = self.serve(1 + (slot % intervals) as usize, terms);
+        // What those who are served at once had no room for must not wait for a frame that may never come.
+        if slot.is_multiple_of(intervals) {
+            gone.extend(self.serve(PROMPT, terms));
+        }
+        gone
     }
 
     /// Serves those who are served at once; returns who is gone.

@@ -57,6 +57,15 @@ impl Stage {
         stage
     }
 
+    /// With as many spectators as are served at once, who read nothing of interest.
+    fn crowded() -> Self {
+        let mut stage = Self::new();
+        for client in 0..feed::AT_ONCE as u32 {
+            stage.add(10_000 + client, &Pipe::with_room(1_000_000), STREAM);
+        }
+        stage
+    }
+
     fn order(&mut self, order: Order) {
         self.broadcast.carry_out(order);
     }
@@ -85,7 +94,7 @@ impl Stage {
 
 #[tokio::test(start_paused = true)]
 async fn whoever_comes_gets_a_full_snapshot_at_once_and_then_frames_in_turn() {
-    let (mut stage, pipe) = (Stage::new(), Pipe::with_room(1000));
+    let (mut stage, pipe) = (Stage::crowded(), Pipe::with_room(1000));
     stage.frame(STREAM, 1);
     stage.order(Order::News { kind: NewsKind::Roster, frame: Bytes::from_static(b"R.") });
     let _end = stage.add(1, &pipe, STREAM);
@@ -100,7 +109,7 @@ async fn whoever_comes_gets_a_full_snapshot_at_once_and_then_frames_in_turn() {
 
 #[tokio::test(start_paused = true)]
 async fn spectators_are_served_in_slots_and_players_at_once() {
-    let mut stage = Stage::new();
+    let mut stage = Stage::crowded();
     let pipes: Vec<Pipe> = (0..100).map(|_| Pipe::with_room(1000)).collect();
     let _ends: Vec<_> = (0..).zip(&pipes).map(|(n, pipe)| stage.add(n, pipe, STREAM)).collect();
     let player = Pipe::with_room(1000);
@@ -115,6 +124,15 @@ async fn spectators_are_served_in_slots_and_players_at_once() {
         let served = pipes.iter().filter(|pipe| !pipe.0.lock().unwrap().0.is_empty()).count();
         assert_eq!(served, millisecond, "one each millisecond");
     }
+}
+
+#[tokio::test(start_paused = true)]
+async fn in_a_small_room_nobody_waits_for_a_turn() {
+    let (mut stage, pipe) = (Stage::new(), Pipe::with_room(1000));
+    let _end = stage.add(1, &pipe, STREAM);
+    pipe.take();
+    stage.frame(STREAM, 1);
+    assert_eq!(pipe.take(), "1.");
 }
 
 #[tokio::test(start_paused = true)]
@@ -137,7 +155,7 @@ async fn who_lags_gets_all_that_it_missed_in_order_even_from_within_a_frame() {
 
 #[tokio::test(start_paused = true)]
 async fn who_lags_too_far_jumps_to_the_newest_full_snapshot() {
-    let (mut stage, pipe) = (Stage::new(), Pipe::with_room(6));
+    let (mut stage, pipe) = (Stage::crowded(), Pipe::with_room(6));
     stage.order(Order::News { kind: NewsKind::Roster, frame: Bytes::from_static(b"R.") });
     let _end = stage.add(1, &pipe, STREAM);
     assert_eq!(pipe.take(), "W.F0.R");

@@ -59,6 +59,8 @@ impl Room {
                     self.account.controls += u64::from(self.controls.act(self.now(), place, tick, action));
                 }
             }
+            // A loser must not begin the next game before those who wait have come up for it.
+            ClientMessage::Play if self.result.is_some() && matches!(state, SessionState::Seated(_)) => {}
             ClientMessage::Play => {
                 let deeds = self.lobby.play(client, self.view());
                 self.perform(&deeds);

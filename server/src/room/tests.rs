@@ -125,6 +125,9 @@ fn the_winner_stays_the_next_comes_up_and_the_next_game_begins_by_itself() {
     let names = ["Ann", "Bob", "Cid"].map(|name| stage.join(name, Role::Play));
     stage.run_until("the game is over", |stage| matches!(stage.game().phase(), Phase::Over));
     stage.run(300);
+    assert_eq!(stage.roster.places[1].as_deref(), Some("Bob"), "the result stands for a moment");
+    stage.say(names[1], ClientMessage::Play);
+    stage.run(1_999);
     // Nobody made a point: the first one counts as the winner.
     assert_eq!(stage.roster.places[0].as_deref(), Some("Ann"));
     assert_eq!(stage.roster.places[1].as_deref(), Some("Cid"));

@@ -3,7 +3,7 @@
 use shared::game::{Action, HOUSE, Input, Phase};
 use shared::protocol::BoardInput;
 
-use super::{BOT_PATIENCE, NEXT_GAME_PAUSE, Room};
+use super::{BOT_PATIENCE, NEXT_GAME_PAUSE, Outcome, RESULT_PAUSE, Room};
 use crate::lobby::Sitter;
 
 impl Room {
@@ -61,7 +61,7 @@ impl Room {
         }
     }
 
-    /// 4. After a game: who stays, who makes room.
+    /// 4. After a game, and when its result has stood for a moment: who stays, who makes room.
     pub(super) fn note_end_of_game(&mut self) {
         let is_playing = self.is_playing();
         if std::mem::replace(&mut self.was_playing, is_playing) && !is_playing {
@@ -72,14 +72,20 @@ impl Room {
                     if seated.playing && matches!(game.phase(), Phase::Over) {
                         let place = if self.games.len() > 1 { board } else { seat };
                         tracing::info!("game over: {} has {} points", self.lobby.name_of(place), seated.score.points);
-                        scores.push((place, seated.score.points));
+                        scores.extend(self.lobby.sitter(place).map(|sitter| (place, sitter, seated.score.points)));
                     }
                 }
             }
             self.votes.clear();
-            if scores.is_empty() {
-                return;
-            }
+            // Whoever has to make room sees the result first.
+            let pause = if self.lobby.has_line() { self.ticks(RESULT_PAUSE) } else { 0 };
+            self.result = (!scores.is_empty()).then_some(Outcome { stands_until: self.now() + pause, scores });
+        }
+        if self.result.as_ref().is_some_and(|result| self.now() >= result.stands_until)
+            && let Some(Outcome { scores, .. }) = self.result.take()
+        {
+            let stayed = scores.into_iter().filter(|&(place, sitter, _)| self.lobby.sitter(place) == Some(sitter));
+            let scores: Vec<(u8, u64)> = stayed.map(|(place, _, points)| (place, points)).collect();
             let had_line = self.lobby.has_line();
             let deeds = self.lobby.make_room(&scores);
             self.perform(&deeds);
