@@ -30,6 +30,7 @@ pub use accuracy::{Accuracy, Horizon, length_text, parse_tolerance};
 pub(crate) use check::{is_printable, unprintable};
 pub use crowd::{CrowdAction, CrowdRules, MOST_CROWD_ACTIONS};
 pub use error::TableError;
+pub(crate) use error::readable;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};
 pub use scene_form::{SceneBall, SceneElement, SceneFile};
@@ -86,7 +87,7 @@ impl Table {
     /// # Errors
     /// The first thing that is wrong with it: where, and what would be right.
     pub fn parse(file: &str, source: &str) -> Result<Self, TableError> {
-        check::parse(file, source)
+        check::parse(file, source).map_err(TableError::readable)
     }
 
     /// The same table run by another motion model or at another rate. Its digest then says so: it is another world.

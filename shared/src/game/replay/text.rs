@@ -9,7 +9,7 @@ use super::{Checkpoint, FORMAT_VERSION, MOST_CHECKPOINTS, MOST_INPUTS, MOST_TEXT
 use crate::game::Input;
 use crate::math::bounded;
 use crate::table::locate::{Step, line_of};
-use crate::table::{is_printable, unprintable};
+use crate::table::{is_printable, readable, unprintable};
 
 /// Most characters of a complaint that are shown: it may quote the text.
 const MOST_COMPLAINT: usize = 200;
@@ -47,16 +47,9 @@ pub(super) fn parse(file: &str, source: &str) -> Result<ReplayFile, ReplayError>
     }
     let replay: ReplayFile = Options::default()
         .from_str(source)
-        .map_err(|error| refuse(error.span.start.line, shortened(error.code.to_string())))?;
-    replay.check().map_err(|fault| refuse(line_of(source, &fault.way), shortened(fault.problem)))?;
+        .map_err(|error| refuse(error.span.start.line, readable(&error.code.to_string(), MOST_COMPLAINT)))?;
+    replay.check().map_err(|fault| refuse(line_of(source, &fault.way), readable(&fault.problem, MOST_COMPLAINT)))?;
     Ok(replay)
-}
-
-fn shortened(complaint: String) -> String {
-    match complaint.char_indices().nth(MOST_COMPLAINT) {
-        Some((end, _)) => format!("{}...", &complaint[..end]),
-        None => complaint,
-    }
 }
 
 /// One line for each input and each checkpoint.
