@@ -131,7 +131,8 @@ impl CabinetState {
         if self.acceleration == DVec2::ZERO && self.velocity == DVec2::ZERO && swings < STILL_BOB * spec.ring {
             (self.bob, self.bob_velocity) = (DVec2::ZERO, DVec2::ZERO);
         }
-        self
+        // What no state may hold, none becomes: else nobody could go on from it.
+        if self.is_possible() { self } else { Self::default() }
     }
 }
 
@@ -203,6 +204,20 @@ mod tests {
             assert!((displacement - expected).abs() < 1e-15, "{displacement} after {tick} ticks");
         }
         assert!(speed.abs() < 0.06 * 0.003);
+    }
+
+    /// Broke: a state at the limits was accepted, and refused a tick later.
+    #[test]
+    fn a_shake_at_the_limits_stays_within_them() {
+        let leg = Oscillator::new(50.0, 0.05, DT);
+        let spec = CabinetSpec { speed: 0.06, legs: [leg; 2], bob: Oscillator::new(10.0, 0.05, DT), ring: 2e-3 };
+        let most = DVec2::new(0.0, MOST_SHAKE);
+        let mut state =
+            CabinetState { displacement: -most, velocity: most, push: most, bob: most, ..Default::default() };
+        for tick in 0..100 {
+            assert!(state.is_possible(), "tick {tick}: {state:?}");
+            state = state.advanced(&spec, DT);
+        }
     }
 
     #[test]
