@@ -1,1 +1,4 @@
-//! Tests over loopback live in `tests/`.
+//! What the tests in `tests/` and the fuzz targets in `fuzz/` share. Tests over loopback have a harness of their own.
+
+pub mod fuzz;
+pub mod samples;
