@@ -5,7 +5,7 @@
 //! |---|---|
 //! | needs, tick, balls served; of each ball its id, the age, position and velocity of its flight, what it lies on, what is past | acceleration (`contact`: without, a ball only ever has the scene's own), spin and how it slides, kind, floor; flippers, plungers, targets, hinges, magnets, the cabinet |
 //!
-//! A number that is zero, as many of them are most of the time, is a bit: see [`super::numbers`].
+//! A number that is zero, as many of them are most of the time, is a bit: see `numbers.rs`.
 
 use core::fmt;
 
