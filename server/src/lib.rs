@@ -57,6 +57,9 @@ pub enum ServerError {
     /// The room's task failed: a bug.
     #[error("the room ended unexpectedly: {0}")]
     Room(#[from] tokio::task::JoinError),
+    /// The fan-out's task failed: a bug.
+    #[error("the broadcast ended unexpectedly")]
+    Broadcast,
     /// The table still asks for an accuracy. Clients would refuse it: each might choose differently.
     #[error(
         "the table asks for {0}, and motion model and tick rate have not been chosen: it must be resolved to be served"
@@ -82,7 +85,7 @@ pub async fn run(
     let tick = Arc::new(AtomicU64::new(0));
     let next_wake = Arc::new(NextWake::default());
     let patience = Patience { write_time: config.write_time, goodbye_time: GOODBYE_TIME };
-    let broadcast = tokio::spawn(Broadcast::new(patience, Arc::clone(&next_wake)).run(ordered));
+    let mut broadcast = tokio::spawn(Broadcast::new(patience, Arc::clone(&next_wake)).run(ordered));
     let room = room::Room::new(Arc::clone(&config), orders.clone(), Arc::clone(&tick));
     let mut room = tokio::task::spawn_blocking(move || room.run(&heard, &next_wake));
     let around = Surroundings { config, commands, orders, tick };
@@ -93,6 +96,7 @@ pub async fn run(
         () = shutdown => {}
         // Only if it fails: a server without a room must not go on.
         ended = &mut room => return Ok(ended?),
+        _ = &mut broadcast => return Err(ServerError::Broadcast),
     }
     // The room says goodbye to all; the broadcast writes that, and with it ends every connection.
     around.commands.send(Command::Stop).await;
