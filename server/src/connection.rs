@@ -18,6 +18,7 @@ use tokio::sync::oneshot;
 use tokio::time::{Instant, timeout};
 
 use crate::broadcast::{Order, Orders};
+use crate::chatter::Chatter;
 use crate::commands::{Command, Commands};
 use crate::config::Config;
 use crate::listener::Permit;
@@ -34,6 +35,7 @@ pub(crate) struct Surroundings {
     pub(crate) orders: Orders,
     /// The tick that the room plays next.
     pub(crate) tick: Arc<AtomicU64>,
+    pub(crate) chatter: Arc<Chatter>,
 }
 
 /// Serves one connection to its end.
@@ -50,7 +52,7 @@ pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surrou
     };
     let hello = match hello {
         Ok(hello) => hello,
-        Err(reason) => return refuse(&mut write, &config, address, reason).await,
+        Err(reason) => return refuse(&mut write, &around, address, reason).await,
     };
     let name = hello.name.clone();
     let (reply, joined) = oneshot::channel();
@@ -59,12 +61,16 @@ pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surrou
     around.commands.send(join).await;
     // Without an answer the room has ended; a room that is full has the way out and says so itself.
     let Ok(Some(client)) = joined.await else { return };
-    tracing::info!(client, %address, name, "joined");
+    if around.chatter.may_speak() {
+        tracing::info!(client, %address, name, "joined");
+    }
     let reason = tokio::select! {
         reason = read_messages(&mut reader, &around, client) => reason,
         reason = end => reason.unwrap_or_else(|_| "the server ends".to_owned()),
     };
-    tracing::info!(client, name, "left: {reason}");
+    if around.chatter.may_speak() {
+        tracing::info!(client, name, "left: {reason}");
+    }
     around.commands.send(Command::Left { client }).await;
     // Closed with something unread, the goodbye would be lost on its way.
     let _ = timeout(LINGER_TIME, reader.discard()).await;
@@ -141,10 +147,12 @@ pub(crate) fn refusal(reason: String) -> Bytes {
     framed(&encode_greeting(&ServerMessage::Refused { reason })).into()
 }
 
-async fn refuse(write: &mut OwnedWriteHalf, config: &Config, address: SocketAddr, reason: String) {
-    tracing::info!(%address, "refused: {reason}");
+async fn refuse(write: &mut OwnedWriteHalf, around: &Surroundings, address: SocketAddr, reason: String) {
+    if around.chatter.may_speak() {
+        tracing::info!(%address, "refused: {reason}");
+    }
     // Best effort: the client may be gone.
-    let _ = timeout(config.write_time, write.write_all(&refusal(reason))).await;
+    let _ = timeout(around.config.write_time, write.write_all(&refusal(reason))).await;
 }
 
 /// Hands the client's messages to the room; returns why it ends.

@@ -7,6 +7,7 @@
 
 mod account;
 mod broadcast;
+mod chatter;
 mod commands;
 mod config;
 mod connection;
@@ -88,7 +89,7 @@ pub async fn run(
     let mut broadcast = tokio::spawn(Broadcast::new(patience, Arc::clone(&next_wake)).run(ordered));
     let room = room::Room::new(Arc::clone(&config), orders.clone(), Arc::clone(&tick));
     let mut room = tokio::task::spawn_blocking(move || room.run(&heard, &next_wake));
-    let around = Surroundings { config, commands, orders, tick };
+    let around = Surroundings { config, commands, orders, tick, chatter: Arc::default() };
 
     let mut connections = JoinSet::new();
     tokio::select! {

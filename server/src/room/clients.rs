@@ -109,7 +109,8 @@ impl Room {
         if self.lobby.state(client).is_none() {
             return;
         }
-        tracing::warn!(client, "expelled: {reason}");
+        // Its connection says so, as far as there is room in the log.
+        tracing::debug!(client, "expelled: {reason}");
         self.account.illegal += 1;
         self.forget(client, goodbye(reason));
     }

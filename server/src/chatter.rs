@@ -1,0 +1,55 @@
+//! How much is said about connections: a log that grows by a thousand lines a second is no use to anybody, and fills a disk.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+/// Lines about connections in a second; what happens beyond is counted.
+const MOST_A_SECOND: u64 = 50;
+
+/// Counts lines. Shared by all connections; races cost a line or two.
+#[derive(Debug)]
+pub(crate) struct Chatter {
+    epoch: Instant,
+    second: AtomicU64,
+    wanted: AtomicU64,
+}
+
+impl Default for Chatter {
+    fn default() -> Self {
+        Self { epoch: Instant::now(), second: AtomicU64::new(0), wanted: AtomicU64::new(0) }
+    }
+}
+
+impl Chatter {
+    /// Whether another line may be logged now. The first one after a noisy second tells how many were left out.
+    pub(crate) fn may_speak(&self) -> bool {
+        let (may_speak, left_out) = self.ask(self.epoch.elapsed().as_secs());
+        if left_out > 0 {
+            tracing::warn!("{left_out} more lines about connections within a second were left out");
+        }
+        may_speak
+    }
+
+    fn ask(&self, second: u64) -> (bool, u64) {
+        let left_out = if self.second.swap(second, Ordering::Relaxed) == second {
+            0
+        } else {
+            self.wanted.swap(0, Ordering::Relaxed).saturating_sub(MOST_A_SECOND)
+        };
+        (self.wanted.fetch_add(1, Ordering::Relaxed) < MOST_A_SECOND, left_out)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_noisy_second_is_cut_short_and_counted() {
+        let chatter = Chatter::default();
+        let said = (0..1000).filter(|_| chatter.ask(7).0).count() as u64;
+        assert_eq!(said, MOST_A_SECOND);
+        assert_eq!(chatter.ask(8), (true, 1000 - MOST_A_SECOND));
+        assert_eq!(chatter.ask(9), (true, 0));
+    }
+}
