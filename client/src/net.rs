@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use shared::protocol::{
     ClientMessage, Deframer, FrameError, FramingError, Hello, MOST_FROM_SERVER, PreambleError, ServerMessage, Welcome,
-    decode_from_server, decode_greeting, encode, encode_greeting, framed,
+    decode_from_server, decode_welcome, encode, encode_greeting, framed,
 };
 use thiserror::Error;
 use tokio::io::{AsyncReadExt, AsyncWriteExt};
@@ -263,7 +263,7 @@ async fn connect(address: String, hello: Hello) -> Result<(Reader, OwnedWriteHal
     let mut reader = Reader { socket, deframer: Deframer::new(MOST_FROM_SERVER), has_read: false };
     let greeting = async {
         writer.write_all(&framed(&encode_greeting(&hello))).await?;
-        match reader.next(decode_greeting).await? {
+        match reader.next(decode_welcome).await? {
             ServerMessage::Welcome(welcome) => Ok(welcome),
             ServerMessage::Refused { reason } => Err(NetError::Refused(reason)),
             _ => Err(NetError::NoGreeting),

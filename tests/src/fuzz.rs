@@ -10,7 +10,7 @@ use shared::game::replay::{Recorder, Replay};
 use shared::game::{Action, Game, GameState, Input, Nudge};
 use shared::protocol::{
     ClientMessage, Deframer, Follower, Full, Hello, MOST_FROM_CLIENT, PREAMBLE_LENGTH, Preamble, ServerMessage, decode,
-    decode_from_server, decode_greeting, encode, encode_from_server,
+    decode_from_server, decode_greeting, decode_welcome, encode, encode_from_server,
 };
 use shared::table::Table;
 
@@ -40,7 +40,7 @@ pub fn frame(data: &[u8]) {
         if let Err(error) = decode_greeting::<Hello>(frame) {
             readable(&error.to_string());
         }
-        if let Err(error) = decode_greeting::<ServerMessage>(frame) {
+        if let Err(error) = decode_welcome(frame) {
             readable(&error.to_string());
         }
     }

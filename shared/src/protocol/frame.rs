@@ -49,12 +49,25 @@ pub fn encode_from_server(message: &ServerMessage) -> Vec<u8> {
 /// What a server says.
 ///
 /// # Errors
-/// If the bytes are not exactly one message.
+/// If the bytes are not exactly one message, or its words cannot be shown.
 pub fn decode_from_server(bytes: &[u8]) -> Result<ServerMessage, FrameError> {
     match bytes.first() {
         Some(&first) if first & inputs::MARK != 0 => Ok(ServerMessage::Inputs(Inputs::from_bytes(bytes)?)),
-        _ => decode(bytes),
+        _ => checked(decode(bytes)?, bytes.len()),
     }
+}
+
+/// The first thing that a server says.
+///
+/// # Errors
+/// If its protocol is not ours, the bytes are not exactly one message, or its words cannot be shown.
+pub fn decode_welcome(bytes: &[u8]) -> Result<ServerMessage, FrameError> {
+    checked(decode_greeting(bytes)?, bytes.len())
+}
+
+fn checked(message: ServerMessage, length: usize) -> Result<ServerMessage, FrameError> {
+    message.check().map_err(|problem| FrameError::Malformed { length, problem })?;
+    Ok(message)
 }
 
 /// The bytes of a value.

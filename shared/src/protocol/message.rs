@@ -11,6 +11,8 @@ use crate::table::MOST_CROWD_ACTIONS;
 
 /// Longest name of a player, characters.
 pub const MOST_NAME: usize = 24;
+/// Longest reason that a server gives, characters.
+const MOST_REASON: usize = 1000;
 /// Most names of a line that a roster tells.
 pub const MOST_IN_LINE: usize = 32;
 
@@ -165,6 +167,28 @@ pub enum ServerMessage {
     /// What was pressed since the frame before: a frame with a layout of its own.
     #[serde(skip)]
     Inputs(Inputs),
+}
+
+impl ServerMessage {
+    /// Whether its words can be shown: names are names, and reasons are lines of text. A server is not to be trusted either.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check(&self) -> Result<(), String> {
+        match self {
+            Self::Welcome(welcome) => check_name(&welcome.room),
+            Self::Refused { reason } | Self::Bye { reason } => {
+                if reason.chars().count() > MOST_REASON || reason.chars().any(|c| c.is_control() || is_invisible(c)) {
+                    return Err(format!("a reason is one line of at most {MOST_REASON} characters"));
+                }
+                Ok(())
+            }
+            Self::Roster(roster) => {
+                roster.places.iter().flatten().chain(&roster.line).try_for_each(|name| check_name(name))
+            }
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Whether a name can be shown to others: 1 to 24 characters, none of them a control character (they reach logs and

@@ -17,7 +17,10 @@ mod stream;
 mod version;
 
 pub use follower::{FollowError, Follower, Heard, Mismatch};
-pub use frame::{FrameError, decode, decode_from_server, decode_greeting, encode, encode_from_server, encode_greeting};
+pub use frame::{
+    FrameError, decode, decode_from_server, decode_greeting, decode_welcome, encode, encode_from_server,
+    encode_greeting,
+};
 pub use framing::{Deframer, FramingError, framed, length_prefix};
 pub use inputs::{BoardInput, Inputs, MOST_INPUTS};
 pub use message::{

@@ -87,6 +87,19 @@ fn names_with_control_characters_are_refused() {
 }
 
 #[test]
+fn words_of_a_server_that_would_harm_a_terminal_are_refused() {
+    let bye = |reason: &str| ServerMessage::Bye { reason: reason.to_owned() };
+    let mut roster = Roster { line: vec!["Ann".to_owned()], ..Roster::default() };
+    assert!(decode_from_server(&encode_from_server(&ServerMessage::Roster(roster.clone()))).is_ok());
+    roster.line.push("a\u{1b}[2J".to_owned());
+    for bad in [bye("x\ny"), bye(&"x".repeat(2000)), ServerMessage::Roster(roster)] {
+        assert!(matches!(decode_from_server(&encode_from_server(&bad)), Err(FrameError::Malformed { .. })), "{bad:?}");
+    }
+    assert!(decode_welcome(&encode_greeting(&ServerMessage::Refused { reason: "\u{7}".to_owned() })).is_err());
+    assert!(decode_from_server(&encode_from_server(&bye("the server ends"))).is_ok());
+}
+
+#[test]
 fn a_snapshot_of_a_game_in_play_restores_bit_for_bit() {
     let table = std::sync::Arc::new(Table::shipped("classic").expect("shipped").expect("valid"));
     let mut game = Game::new(std::sync::Arc::clone(&table));
