@@ -31,6 +31,16 @@ impl Lateness {
         self.most = self.most.max(late);
     }
 
+    /// Takes in every wake that was due up to `now`, from the one at `wake` on, and returns the next one. The schedule does not
+    /// move: a wake that was slept or worked through was late, too.
+    pub(crate) fn note_due(&mut self, mut wake: Duration, now: Duration, every: Duration) -> Duration {
+        while wake <= now {
+            self.note(now - wake);
+            wake += every;
+        }
+        wake
+    }
+
     /// The lateness that so large a share of all do not exceed, to a sixteenth.
     pub fn share(&self, share: f64) -> Duration {
         let wanted = (share * self.count as f64).ceil() as u64;
@@ -93,6 +103,16 @@ mod tests {
                 "{micros} in a class up to {limit}"
             );
         }
+    }
+
+    /// The schedule moved along with whoever was late, and a stall counted once.
+    #[test]
+    fn wakes_that_were_missed_count_as_late() {
+        let (mut lateness, millis) = (Lateness::default(), Duration::from_millis);
+        assert_eq!(lateness.note_due(millis(4), millis(4), millis(4)), millis(8));
+        assert_eq!(lateness.note_due(millis(8), millis(49), millis(4)), millis(52));
+        assert_eq!((lateness.count, lateness.most()), (12, millis(41)));
+        assert!(lateness.share(0.5) > millis(15), "{lateness}");
     }
 
     #[test]

@@ -131,7 +131,7 @@ impl Room {
             if now < wake {
                 continue;
             }
-            self.account.lateness.note(now - wake);
+            wake = self.account.lateness.note_due(wake, now, WAKE_EVERY);
             let due = pacer.due(now);
             self.account.ticks_skipped += due.skipped;
             if due.skipped > 0 {
@@ -140,9 +140,6 @@ impl Room {
             for _ in 0..due.ticks {
                 self.tick();
             }
-            // A wake that was missed is not made up for: the next batch is the larger.
-            wake += WAKE_EVERY;
-            wake = wake.max(begin.elapsed());
         }
         self.order(Order::End { last: goodbye("the server ends".to_owned()) });
         self.account

@@ -84,7 +84,11 @@ impl Controls {
         }
         let tick = tick.min(latest);
         *last = Stamp { asked, acts: tick };
-        self.idle[usize::from(board)].ticks = 0;
+        let idle = &mut self.idle[usize::from(board)];
+        // Whoever waits for a turn cannot keep somebody else's alive.
+        if idle.turn.0 == place {
+            idle.ticks = 0;
+        }
         self.push(BoardInput { board, input: Input { tick, seat, action } });
         true
     }
@@ -96,6 +100,11 @@ impl Controls {
             self.pending.retain(|waiting| {
                 (waiting.board, waiting.input.seat) != (board, seat) || !waiting.input.action.is_control()
             });
+        }
+        // Whoever comes next, and every game, begins with all their time.
+        let idle = &mut self.idle[usize::from(board)];
+        if action == Action::Start || idle.turn.0 == place {
+            *idle = Idle::default();
         }
         self.push(BoardInput { board, input: Input { tick: now, seat, action } });
     }

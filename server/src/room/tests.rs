@@ -117,6 +117,34 @@ fn who_idles_loses_the_turn_and_keeps_the_room() {
     assert_eq!(stage.room.account.forfeited, 1);
 }
 
+/// Bob tapped a flipper now and then, and Ann's turn never ended.
+#[test]
+fn nobody_keeps_the_turn_of_another_alive() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    stage.join("Ann", Role::Play);
+    let bob = stage.join("Bob", Role::Play);
+    stage.run_until("Ann's ball is served", |stage| matches!(stage.game().phase(), Phase::Play { serve_in: 0, .. }));
+    for _ in 0..4 {
+        stage.run(8_000);
+        stage.say(bob, ClientMessage::Act { tick: 0, action: Action::Flipper { right: true, pressed: true } });
+    }
+    assert!(stage.game().phase().has_turn(1), "she has done nothing for 32 s");
+}
+
+/// Bob took the place of somebody who had done nothing for 29 s, and lost his ball after one.
+#[test]
+fn who_takes_a_place_has_all_the_time() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    let ann = stage.join("Ann", Role::Play);
+    stage.run_until("Ann's ball is served", |stage| matches!(stage.game().phase(), Phase::Play { serve_in: 0, .. }));
+    stage.run(29_000);
+    let bob = stage.join("Bob", Role::Watch);
+    stage.say(ann, ClientMessage::Leave);
+    stage.say(bob, ClientMessage::Play);
+    stage.run(25_000);
+    assert_eq!(stage.room.account.forfeited, 0);
+}
+
 #[test]
 fn the_winner_stays_the_next_comes_up_and_the_next_game_begins_by_itself() {
     let mut config = quiet(ball_eater(), Mode::Challenge);
