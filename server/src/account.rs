@@ -37,8 +37,10 @@ pub struct Account {
     pub fulls: u64,
     /// Bytes of the largest of them.
     pub largest_full: usize,
-    /// Times that a client said that its copy differs, or that it missed something.
+    /// Times that a client said that its copy differs.
     pub differing: u64,
+    /// Times that a client said that it missed something.
+    pub gaps: u64,
     /// Sessions ended for something illegal.
     pub illegal: u64,
     /// Flippers in the upper part of a stroke that was counted, one bit each, for each board.
@@ -80,7 +82,7 @@ impl fmt::Display for Account {
         write!(
             f,
             "account: ticks {} skipped {} lateness-us {} clients {} controls {} left-strokes {} right-strokes {} games {} \
-             balls {} rescued {} forfeited {} frames {} mean-bytes {mean} fulls {} largest-bytes {} differing {} illegal {}",
+             balls {} rescued {} forfeited {} frames {} mean-bytes {mean} fulls {} largest-bytes {} differing {} gaps {} illegal {}",
             self.ticks,
             self.ticks_skipped,
             self.lateness,
@@ -96,6 +98,7 @@ impl fmt::Display for Account {
             self.fulls,
             self.largest_full,
             self.differing,
+            self.gaps,
             self.illegal,
         )
     }

@@ -30,8 +30,8 @@ const ORDERS_AT_ONCE: usize = 256;
 
 /// What the room and the connections ask of the broadcast. Frames are as they go on the wire.
 ///
-/// The queue of orders has no bound of its own: the room makes so many a second, connections at most one for each message
-/// that they may send, and all are carried out within a millisecond or so.
+/// The queue of orders has no bound of its own: the room makes so many a second, connections at most one for each ping that
+/// is answered, and all are carried out within a millisecond or so.
 pub(crate) enum Order {
     /// A stream begins; this is its first full snapshot.
     Open { stream: Stream, full: Bytes },
@@ -135,8 +135,16 @@ impl Broadcast {
             self.slots += 1;
             let terms = terms(&self.news, self.patience, &self.next_wake);
             for feed in self.feeds.values_mut() {
-                for client in feed.serve_slot(self.slots, &terms) {
-                    self.whereabouts.remove(&client);
+                let mut from = Some(0);
+                while let Some(first) = from {
+                    let round = feed.serve_slot(self.slots, first, SLOT, &terms);
+                    for client in round.gone {
+                        self.whereabouts.remove(&client);
+                    }
+                    from = round.next;
+                    if from.is_some() {
+                        tokio::task::yield_now().await;
+                    }
                 }
             }
             if self.slots < due {
@@ -183,21 +191,23 @@ impl Broadcast {
                 }
             }
             Order::Hurry { client, is_prompt } => {
-                let Some(&(stream, slot)) = self.whereabouts.get(&client) else { return };
-                if feed::is_prompt(slot) != is_prompt
-                    && let Some(mut subscriber) = self.take(client)
-                {
+                let Some(&(stream, _)) = self.whereabouts.get(&client) else { return };
+                if let Some(mut subscriber) = self.take(client) {
                     subscriber.is_prompt = is_prompt;
                     self.place(subscriber, stream);
                 }
             }
             Order::Tell { client, frame } => self.at_once(client, |subscriber| subscriber.tell(frame)),
-            Order::Remove { client, last } => self.at_once(client, |subscriber| subscriber.end(last)),
+            Order::Remove { client, last } => {
+                let until = Instant::now() + self.patience.write_time;
+                self.at_once(client, |subscriber| subscriber.end(last, until));
+            }
             Order::End { last } => {
                 self.ends = true;
                 let clients: Vec<u32> = self.whereabouts.keys().copied().collect();
+                let until = Instant::now() + self.patience.goodbye_time;
                 for client in clients {
-                    self.at_once(client, |subscriber| subscriber.end(last.clone()));
+                    self.at_once(client, |subscriber| subscriber.end(last.clone(), until));
                 }
             }
         }

@@ -1,31 +1,32 @@
-//! How much is said about connections: a log that grows by a thousand lines a second is no use to anybody, and fills a disk.
+//! How much is said about what clients can bring about as often as they like: a log that grows by a thousand lines a second is
+//! no use to anybody, and fills a disk.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Lines about connections in a second; what happens beyond is counted.
+/// Lines about one subject in a second; what happens beyond is counted.
 const MOST_A_SECOND: u64 = 50;
 
-/// Counts lines. Shared by all connections; races cost a line or two.
+/// Counts lines about one subject. Shared by all who speak about it; races cost a line or two.
 #[derive(Debug)]
 pub(crate) struct Chatter {
+    subject: &'static str,
     epoch: Instant,
     second: AtomicU64,
     wanted: AtomicU64,
 }
 
-impl Default for Chatter {
-    fn default() -> Self {
-        Self { epoch: Instant::now(), second: AtomicU64::new(0), wanted: AtomicU64::new(0) }
-    }
-}
-
 impl Chatter {
+    /// About that.
+    pub(crate) fn new(subject: &'static str) -> Self {
+        Self { subject, epoch: Instant::now(), second: AtomicU64::new(0), wanted: AtomicU64::new(0) }
+    }
+
     /// Whether another line may be logged now. The first one after a noisy second tells how many were left out.
     pub(crate) fn may_speak(&self) -> bool {
         let (may_speak, left_out) = self.ask(self.epoch.elapsed().as_secs());
         if left_out > 0 {
-            tracing::warn!("{left_out} more lines about connections within a second were left out");
+            tracing::warn!("{left_out} more lines about {} within a second were left out", self.subject);
         }
         may_speak
     }
@@ -46,7 +47,7 @@ mod tests {
 
     #[test]
     fn a_noisy_second_is_cut_short_and_counted() {
-        let chatter = Chatter::default();
+        let chatter = Chatter::new("nothing");
         let said = (0..1000).filter(|_| chatter.ask(7).0).count() as u64;
         assert_eq!(said, MOST_A_SECOND);
         assert_eq!(chatter.ask(8), (true, 1000 - MOST_A_SECOND));

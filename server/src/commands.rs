@@ -79,6 +79,14 @@ impl Commands {
         }
     }
 
+    /// Lets the room know that a client is gone, whatever its connection ended of: it may be unwinding.
+    pub(crate) fn send_left(&self, client: u32) {
+        if let Err(TrySendError::Full(left)) = self.queue.try_send(Command::Left { client }) {
+            let commands = self.clone();
+            tokio::spawn(async move { commands.send(left).await });
+        }
+    }
+
     /// Ready when the room has ended.
     pub(crate) async fn closed(&self) {
         let mut open = self.open.clone();

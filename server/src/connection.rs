@@ -11,7 +11,7 @@ use shared::protocol::{
     ClientMessage, Deframer, Hello, ServerMessage, check_name, decode, decode_greeting, encode_greeting, framed,
 };
 use socket2::SockRef;
-use tokio::io::{AsyncReadExt, AsyncWriteExt};
+use tokio::io::{AsyncReadExt as _, AsyncWriteExt as _};
 use tokio::net::TcpStream;
 use tokio::net::tcp::{OwnedReadHalf, OwnedWriteHalf};
 use tokio::sync::oneshot;
@@ -23,9 +23,13 @@ use crate::commands::{Command, Commands};
 use crate::config::Config;
 use crate::listener::Permit;
 use crate::streams::wire;
+use crate::transport::Tcp;
 
 /// How long a connection that is over may still send, so that its last word arrives.
-const LINGER_TIME: Duration = Duration::from_secs(1);
+pub(crate) const LINGER_TIME: Duration = Duration::from_secs(1);
+
+/// Pings that are answered in a second.
+const MOST_PINGS: u32 = 20;
 
 /// What every connection needs of the server.
 #[derive(Clone)]
@@ -42,7 +46,8 @@ pub(crate) struct Surroundings {
 pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surroundings, permit: Permit) {
     let config = Arc::clone(&around.config);
     set_options(&stream, address, &config);
-    let (read, mut write) = stream.into_split();
+    let (read, write) = stream.into_split();
+    let permit = Arc::new(permit);
     let mut reader = Reader { read, deframer: Deframer::new(config.most_frame) };
 
     let hello = tokio::select! {
@@ -52,15 +57,17 @@ pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surrou
     };
     let hello = match hello {
         Ok(hello) => hello,
-        Err(reason) => return refuse(&mut write, &around, address, reason).await,
+        Err(reason) => return refuse(write, reader, &around, address, reason).await,
     };
     let name = hello.name.clone();
     let (reply, joined) = oneshot::channel();
     let (ended, end) = oneshot::channel();
-    let join = Command::Join { hello, transport: Box::new(write), ended, reply };
+    let transport = Box::new(Tcp { write, _permit: Arc::clone(&permit) });
+    let join = Command::Join { hello, transport, ended, reply };
     around.commands.send(join).await;
     // Without an answer the room has ended; a room that is full has the way out and says so itself.
-    let Ok(Some(client)) = joined.await else { return };
+    let Ok(Some(client)) = joined.await else { return reader.linger().await };
+    let departure = Departure { commands: around.commands.clone(), client };
     if around.chatter.may_speak() {
         tracing::info!(client, %address, name, "joined");
     }
@@ -71,10 +78,20 @@ pub(crate) async fn serve(stream: TcpStream, address: SocketAddr, around: Surrou
     if around.chatter.may_speak() {
         tracing::info!(client, name, "left: {reason}");
     }
-    around.commands.send(Command::Left { client }).await;
-    // Closed with something unread, the goodbye would be lost on its way.
-    let _ = timeout(LINGER_TIME, reader.discard()).await;
-    drop(permit);
+    drop(departure);
+    reader.linger().await;
+}
+
+/// Lets the room know that a client is gone when it is dropped: even if its connection's task panics, its place falls free.
+struct Departure {
+    commands: Commands,
+    client: u32,
+}
+
+impl Drop for Departure {
+    fn drop(&mut self) {
+        self.commands.send_left(self.client);
+    }
 }
 
 fn set_options(stream: &TcpStream, address: SocketAddr, config: &Config) {
@@ -125,6 +142,12 @@ impl Reader {
         let mut nothing = [0; 1024];
         while matches!(self.read.read(&mut nothing).await, Ok(1..)) {}
     }
+
+    /// Reads on for a moment. Closed with something unread, a last word would be lost on its way.
+    async fn linger(&mut self) {
+        // Its end is as good as the time's.
+        let _ = timeout(LINGER_TIME, self.discard()).await;
+    }
 }
 
 /// Reads the hello. The error is what the client is told.
@@ -147,17 +170,26 @@ pub(crate) fn refusal(reason: String) -> Bytes {
     framed(&encode_greeting(&ServerMessage::Refused { reason })).into()
 }
 
-async fn refuse(write: &mut OwnedWriteHalf, around: &Surroundings, address: SocketAddr, reason: String) {
+async fn refuse(
+    mut write: OwnedWriteHalf,
+    mut reader: Reader,
+    around: &Surroundings,
+    address: SocketAddr,
+    reason: String,
+) {
     if around.chatter.may_speak() {
         tracing::info!(%address, "refused: {reason}");
     }
     // Best effort: the client may be gone.
     let _ = timeout(around.config.write_time, write.write_all(&refusal(reason))).await;
+    drop(write);
+    reader.linger().await;
 }
 
 /// Hands the client's messages to the room; returns why it ends.
 async fn read_messages(reader: &mut Reader, around: &Surroundings, client: u32) -> String {
     let mut allowance = Allowance::new(around.config.most_messages);
+    let mut pings = Allowance::new(MOST_PINGS);
     loop {
         let message = timeout(
             around.config.silent_time,
@@ -175,6 +207,8 @@ async fn read_messages(reader: &mut Reader, around: &Surroundings, client: u32) 
             false => Err(format!("more than {} messages a second", around.config.most_messages)),
         });
         match message {
+            // More of them are of no use to anybody.
+            Ok(ClientMessage::Ping { .. }) if !pings.take() => {}
             // The room need not wake up for that.
             Ok(ClientMessage::Ping { nonce }) => {
                 let pong = ServerMessage::Pong { nonce, tick: around.tick.load(Ordering::Relaxed) };

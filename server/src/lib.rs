@@ -45,12 +45,16 @@ pub use session::{SessionState, is_legal};
 pub use tables::{load_table, load_text, read_table};
 
 use broadcast::{Broadcast, Patience};
+use chatter::Chatter;
 use commands::Command;
-use connection::Surroundings;
+use connection::{LINGER_TIME, Surroundings};
+use listener::note_end;
 use pacing::NextWake;
 
 /// How long connections may take to say goodbye.
 const GOODBYE_TIME: Duration = Duration::from_secs(2);
+/// What a busy machine may take besides to end them.
+const SLACK: Duration = Duration::from_millis(500);
 
 /// Why a server ended early.
 #[derive(Debug, Error)]
@@ -89,7 +93,7 @@ pub async fn run(
     let mut broadcast = tokio::spawn(Broadcast::new(patience, Arc::clone(&next_wake)).run(ordered));
     let room = room::Room::new(Arc::clone(&config), orders.clone(), Arc::clone(&tick));
     let mut room = tokio::task::spawn_blocking(move || room.run(&heard, &next_wake));
-    let around = Surroundings { config, commands, orders, tick, chatter: Arc::default() };
+    let around = Surroundings { config, commands, orders, tick, chatter: Arc::new(Chatter::new("connections")) };
 
     let mut connections = JoinSet::new();
     tokio::select! {
@@ -104,11 +108,13 @@ pub async fn run(
     let account = room.await?;
     drop(around);
     let all_ended = async {
-        while connections.join_next().await.is_some() {}
+        while let Some(ended) = connections.join_next().await {
+            note_end(ended);
+        }
         // It has nobody left to write to.
         drop(broadcast.await);
     };
-    if tokio::time::timeout(GOODBYE_TIME, all_ended).await.is_err() {
+    if tokio::time::timeout(GOODBYE_TIME + LINGER_TIME + SLACK, all_ended).await.is_err() {
         tracing::warn!("some clients did not take the goodbye in time");
     }
     Ok(account)

@@ -2,11 +2,16 @@
 //! turns its decisions into inputs of the game.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::sync::Arc;
 
 use shared::game::{Action, SEATS};
 use shared::protocol::{MOST_IN_LINE, Mode, Roster, ServerMessage};
 
+use crate::chatter::Chatter;
 use crate::session::SessionState;
+
+/// Clients far back in the line that are told at once how far they have moved up: a line of thousands moves for nobody's sake.
+const TOLD_AT_ONCE: usize = 64;
 
 /// A connected client.
 #[derive(Debug)]
@@ -15,6 +20,8 @@ struct Client {
     state: SessionState,
     /// It has, or had, a place.
     had_place: bool,
+    /// The place in the line that it was told.
+    told: Option<u16>,
 }
 
 /// Who has a place.
@@ -41,9 +48,9 @@ pub(crate) enum News {
     /// Nothing.
     #[default]
     None,
-    /// How many watch.
+    /// How many watch, or who waits.
     Count,
-    /// Who plays or waits.
+    /// Who plays.
     Names,
 }
 
@@ -60,9 +67,14 @@ pub(crate) struct Lobby {
     untold: BTreeSet<u32>,
     places: [Option<Sitter>; SEATS],
     line: VecDeque<u32>,
+    /// Somebody in it may not know their place any more.
+    line_moved: bool,
+    /// Up to here whoever stands far back was told.
+    told_to: usize,
     /// Who won the last game and stayed: the client, and how often in a row.
     champion: Option<(u32, u32)>,
     news: News,
+    chatter: Arc<Chatter>,
 }
 
 /// Something the game has to be told: a place and what its player does.
@@ -70,7 +82,7 @@ pub(crate) type Deed = (u8, Action);
 
 impl Lobby {
     /// With nobody in it.
-    pub(crate) fn new(mode: Mode, places: usize, has_bot: bool) -> Self {
+    pub(crate) fn new(mode: Mode, places: usize, has_bot: bool, chatter: Arc<Chatter>) -> Self {
         Self {
             mode,
             count: places.clamp(1, SEATS),
@@ -79,15 +91,18 @@ impl Lobby {
             untold: BTreeSet::new(),
             places: [None; SEATS],
             line: VecDeque::new(),
+            line_moved: false,
+            told_to: 0,
             champion: None,
             news: News::None,
+            chatter,
         }
     }
 
     /// A client came in; it watches until it asks for more.
     pub(crate) fn add(&mut self, id: u32, name: String) {
         let state = SessionState::Watching;
-        self.clients.insert(id, Client { name, state, had_place: false });
+        self.clients.insert(id, Client { name, state, had_place: false, told: None });
         self.untold.insert(id);
         self.note(News::Count);
     }
@@ -148,7 +163,7 @@ impl Lobby {
                 deeds
             }
             SessionState::InLine => {
-                self.note_line();
+                self.line_moved = true;
                 Vec::new()
             }
             SessionState::Watching => Vec::new(),
@@ -156,7 +171,9 @@ impl Lobby {
     }
 
     fn vacate(&mut self, place: u8) -> Deed {
-        tracing::info!("{} leaves place {}", self.name_of(place), place + 1);
+        if self.chatter.may_speak() {
+            tracing::info!("{} leaves place {}", self.name_of(place), place + 1);
+        }
         let sitter = self.places[usize::from(place)].take();
         if let (Some(Sitter::Client(id)), Some((champion, _))) = (sitter, self.champion)
             && id == champion
@@ -194,9 +211,11 @@ impl Lobby {
             let Some(place) = self.free_place() else { break };
             self.line.pop_front();
             self.places[usize::from(place)] = Some(Sitter::Client(next));
-            tracing::info!("{} takes place {}", self.name_of(place), place + 1);
+            if self.chatter.may_speak() {
+                tracing::info!("{} takes place {}", self.name_of(place), place + 1);
+            }
             self.set_state(next, SessionState::Seated(place));
-            self.note_line();
+            self.line_moved = true;
             deeds.push((place, Action::Sit));
             if alone {
                 deeds.extend(self.start(place));
@@ -209,11 +228,9 @@ impl Lobby {
         self.places[..self.count].iter().position(Option::is_none).map(|place| place as u8)
     }
 
-    /// A game is over, with these points of those who played it. The winner of two or more stays; of the others as many as
-    /// wait make room: the bot first, then those with the fewest points. Whoever played alone makes room too.
-    pub(crate) fn make_room(&mut self, scores: &[(u8, u64)]) -> Vec<Deed> {
-        let winner = scores.iter().copied().max_by_key(|&(place, points)| (points, u8::MAX - place));
-        let winner = winner.filter(|_| scores.len() > 1).map(|(place, _)| place);
+    /// A game is over, with these points of those who played it and are still there. Who won against others stays; of the rest
+    /// as many as wait make room: the bot first, then those with the fewest points. Whoever played alone makes room too.
+    pub(crate) fn make_room(&mut self, scores: &[(u8, u64)], winner: Option<u8>) -> Vec<Deed> {
         self.crown(winner);
         let free = self.places[..self.count].iter().filter(|place| place.is_none()).count();
         let needed = self.line.len().saturating_sub(free);
@@ -322,44 +339,71 @@ impl Lobby {
         }
     }
 
-    /// What has to be told to single clients: what they are. It counts as told.
+    /// What has to be told to single clients: what they have become. It counts as told.
     pub(crate) fn take_told(&mut self) -> Vec<(u32, ServerMessage)> {
         let mut untold = std::mem::take(&mut self.untold);
         let mut told = Vec::new();
-        if untold.is_empty() {
-            return told;
-        }
-        for (place, &client) in (1_u64..).zip(&self.line) {
-            if untold.remove(&client) {
-                let line = Some(u16::try_from(place).unwrap_or(u16::MAX));
-                told.push((client, ServerMessage::You { client, place: None, line }));
+        // Who comes stands at the end.
+        let waiting = untold.iter().filter(|&&id| matches!(self.state(id), Some((SessionState::InLine, _)))).count();
+        for place in (0..self.line.len()).rev() {
+            if told.len() == waiting {
+                break;
+            }
+            if untold.remove(&self.line[place]) {
+                told.extend(self.tell_place(place));
             }
         }
         for client in untold {
-            let place = match self.state(client) {
-                Some((SessionState::Seated(place), _)) => Some(place),
-                Some(_) => None,
-                None => continue,
-            };
+            let Some(known) = self.clients.get_mut(&client) else { continue };
+            known.told = None;
+            let place = if let SessionState::Seated(place) = known.state { Some(place) } else { None };
             told.push((client, ServerMessage::You { client, place, line: None }));
         }
         told
+    }
+
+    /// What has to be told to those who moved up in the line: to the first of them, whom the roster names, and to some of the
+    /// others, who have their turn one after the other. It counts as told.
+    pub(crate) fn take_moved(&mut self) -> Vec<(u32, ServerMessage)> {
+        let mut told = Vec::new();
+        if !std::mem::take(&mut self.line_moved) {
+            return told;
+        }
+        for place in 0..self.line.len().min(MOST_IN_LINE) {
+            told.extend(self.tell_place(place));
+        }
+        let far = self.line.len().saturating_sub(MOST_IN_LINE);
+        let most = told.len() + TOLD_AT_ONCE;
+        for _ in 0..far {
+            self.told_to = (self.told_to + 1) % far;
+            told.extend(self.tell_place(MOST_IN_LINE + self.told_to));
+            if told.len() == most {
+                self.line_moved = true;
+                break;
+            }
+        }
+        told
+    }
+
+    /// What to tell who stands there in the line, if that is news.
+    fn tell_place(&mut self, place: usize) -> Option<(u32, ServerMessage)> {
+        let client = *self.line.get(place)?;
+        let known = self.clients.get_mut(&client)?;
+        let line = Some(u16::try_from(place + 1).unwrap_or(u16::MAX));
+        (std::mem::replace(&mut known.told, line) != line)
+            .then_some((client, ServerMessage::You { client, place: None, line }))
     }
 
     fn set_state(&mut self, id: u32, state: SessionState) {
         if let Some(client) = self.clients.get_mut(&id)
             && client.state != state
         {
-            client.had_place |= matches!(state, SessionState::Seated(_));
+            let is_seated = matches!(state, SessionState::Seated(_));
+            client.had_place |= is_seated;
             client.state = state;
             self.untold.insert(id);
-            self.note(News::Names);
+            self.note(if is_seated { News::Names } else { News::Count });
         }
-    }
-
-    /// Whoever waits has another place in the line now.
-    fn note_line(&mut self) {
-        self.untold.extend(&self.line);
     }
 
     fn note(&mut self, news: News) {

@@ -7,8 +7,9 @@ mod clients;
 mod controls;
 mod hands;
 mod turns;
+mod wishes;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::RecvTimeoutError;
@@ -16,10 +17,11 @@ use std::time::{Duration, Instant};
 
 use bytes::Bytes;
 use shared::game::{Game, GameEventKind, Input, Phase, Rescue, SEATS};
-use shared::protocol::{BoardEvent, Mode, ServerMessage, Stream};
+use shared::protocol::{BoardEvent, Mode, ServerMessage};
 
 use crate::account::Account;
 use crate::broadcast::{NewsKind, Order, Orders};
+use crate::chatter::Chatter;
 use crate::commands::{Command, Heard};
 use crate::config::Config;
 use crate::lobby::{Deed, GameView, Lobby, News, Sitter};
@@ -29,6 +31,7 @@ use crate::votes::Votes;
 use clients::{goodbye, welcome};
 use controls::Controls;
 use hands::Hands;
+use wishes::Follower;
 
 /// How often the room wakes to step what is due: a fourth of a player's interval.
 const WAKE_EVERY: Duration = Duration::from_millis(4);
@@ -40,15 +43,10 @@ const NEXT_GAME_PAUSE: f64 = 6.0;
 const RESULT_PAUSE: f64 = 2.0;
 /// Seconds between two rosters when only the number of spectators changed.
 const COUNT_PAUSE: f64 = 1.0;
-/// Seconds between two rosters, and between two tallies.
+/// Seconds between two rosters, between two tallies, and between two times that the line is told how it moves up.
 const NEWS_PAUSE: f64 = 0.25;
-
-/// What a client is to the streams.
-struct Follower {
-    stream: Stream,
-    /// The tick from which on another full snapshot is given on request.
-    next_full: u64,
-}
+/// Seconds after which a client may come and go again.
+const WISH_PAUSE: f64 = 0.25;
 
 /// How a game ended.
 struct Outcome {
@@ -56,6 +54,10 @@ struct Outcome {
     stands_until: u64,
     /// Places, who had them, and their points.
     scores: Vec<(u8, Sitter, u64)>,
+    /// Whose place won, if there was somebody to win against.
+    winner: Option<u8>,
+    /// Somebody waited when it ended: whoever of them comes up meanwhile is to have a game.
+    had_line: bool,
 }
 
 /// Games and everybody around them.
@@ -64,6 +66,8 @@ pub(crate) struct Room {
     games: Vec<Game>,
     lobby: Lobby,
     followers: BTreeMap<u32, Follower>,
+    /// Who asked for something too soon.
+    wishers: BTreeSet<u32>,
     streams: Streams,
     orders: Orders,
     votes: Votes,
@@ -72,6 +76,8 @@ pub(crate) struct Room {
     /// The tick for connections to read.
     shared_tick: Arc<AtomicU64>,
     welcome: Bytes,
+    /// As many as have played in this game at the most.
+    contestants: usize,
     /// A game was on in the tick before.
     was_playing: bool,
     /// Ticks without a game.
@@ -81,19 +87,23 @@ pub(crate) struct Room {
     /// How the last game ended, while that stands.
     result: Option<Outcome>,
     next_roster: u64,
+    next_moved: u64,
     next_tally: u64,
     next_client: u32,
     account: Account,
+    chatter: Arc<Chatter>,
 }
 
 impl Room {
     pub(crate) fn new(config: Arc<Config>, orders: Orders, shared_tick: Arc<AtomicU64>) -> Self {
         let boards = if config.mode == Mode::HeadToHead { config.places.clamp(1, SEATS) } else { 1 };
         let has_bot = config.attract;
+        let chatter = Arc::new(Chatter::new("the game"));
         Self {
             games: (0..boards).map(|_| Game::new(Arc::clone(&config.table))).collect(),
-            lobby: Lobby::new(config.mode, config.places, has_bot),
+            lobby: Lobby::new(config.mode, config.places, has_bot, Arc::clone(&chatter)),
             followers: BTreeMap::new(),
+            wishers: BTreeSet::new(),
             streams: Streams::new(config.room.clone(), orders.clone()),
             orders,
             votes: Votes::default(),
@@ -101,14 +111,17 @@ impl Room {
             hands: Hands::new(&config),
             shared_tick,
             welcome: welcome(&config),
+            contestants: 0,
             was_playing: false,
             idle_ticks: 0,
             next_game_in: 0,
             result: None,
             next_roster: 0,
+            next_moved: 0,
             next_tally: 0,
             next_client: 1,
             account: Account::default(),
+            chatter,
             config,
         }
     }
@@ -149,6 +162,7 @@ impl Room {
     fn tick(&mut self) {
         let tick = self.now();
         // 1. Who plays: the next in line, or the bot when nobody wants to; who leaves the controls alone loses the turn.
+        self.grant_wishes();
         self.fill_places();
         self.hurry_idlers();
         // 2. The bot's hands, and the crowd's.
@@ -233,7 +247,10 @@ impl Room {
         let points = |seat: u8| game.seats()[usize::from(seat)].score.points;
         let place = |seat: u8| if self.games.len() > 1 { board as u8 } else { seat };
         match kind {
-            GameEventKind::Started => self.account.games += 1,
+            GameEventKind::Started => {
+                self.account.games += 1;
+                self.begin_game();
+            }
             GameEventKind::Served { .. } => self.account.balls += 1,
             GameEventKind::Rescued { by: Rescue::Kickers } => {
                 tracing::warn!("tick {}: a ball is stuck, and all kickers are fired", game.tick());
@@ -242,8 +259,10 @@ impl Room {
                 self.account.rescued += 1;
                 tracing::warn!("tick {}: a ball was stuck and is served again", game.tick());
             }
-            GameEventKind::Tilted { seat } => tracing::info!("{} tilts the game", self.lobby.name_of(place(seat))),
-            GameEventKind::Lost { seat } => {
+            GameEventKind::Tilted { seat } if self.chatter.may_speak() => {
+                tracing::info!("{} tilts the game", self.lobby.name_of(place(seat)));
+            }
+            GameEventKind::Lost { seat } if self.chatter.may_speak() => {
                 tracing::info!("{} lost a ball at {} points", self.lobby.name_of(place(seat)), points(seat));
             }
             _ => {}
@@ -254,9 +273,14 @@ impl Room {
     fn tell_news(&mut self) {
         let tick = self.now();
         for (client, you) in self.lobby.take_told() {
-            let is_prompt = matches!(you, ServerMessage::You { place: Some(_), .. });
-            self.order(Order::Hurry { client, is_prompt });
+            self.serve_as(client, matches!(you, ServerMessage::You { place: Some(_), .. }));
             self.tell(client, &you);
+        }
+        if tick >= self.next_moved {
+            self.next_moved = tick + self.ticks(NEWS_PAUSE);
+            for (client, you) in self.lobby.take_moved() {
+                self.tell(client, &you);
+            }
         }
         let due = match self.lobby.news() {
             News::None => false,
@@ -273,6 +297,17 @@ impl Room {
         {
             self.next_tally = tick + self.ticks(NEWS_PAUSE);
             self.order(Order::News { kind: NewsKind::Tally, frame: wire(&ServerMessage::Tally(tally)) });
+        }
+    }
+
+    /// Whoever has a place is served at once, and has no vote among those who watch.
+    fn serve_as(&mut self, client: u32, is_player: bool) {
+        if is_player {
+            self.votes.withdraw(client);
+        }
+        let Some(follower) = self.followers.get_mut(&client) else { return };
+        if std::mem::replace(&mut follower.is_prompt, is_player) != is_player {
+            self.order(Order::Hurry { client, is_prompt: is_player });
         }
     }
 

@@ -13,8 +13,8 @@ use shared::protocol::{
 use crate::account::Account;
 use crate::broadcast::{Order, Orders};
 
-/// Digests that are remembered, to be logged beside those of a client that differs: some ten seconds'.
-const REMEMBERED: usize = 256;
+/// Digests that are remembered, to be logged beside those of a client that differs: some ten seconds' of frames.
+const REMEMBERED: usize = 1024;
 
 /// A stream that somebody follows.
 struct Channel {
@@ -38,7 +38,7 @@ pub(crate) struct Streams {
     room: String,
     orders: Orders,
     channels: BTreeMap<Stream, Channel>,
-    /// Ticks and what the room's digest was there.
+    /// Ticks at which something was sent, ascending, and what the room's digest was there.
     digests: VecDeque<(u64, u64)>,
 }
 
@@ -108,17 +108,17 @@ impl Streams {
             if !stream.is_due(tick, dt) {
                 continue;
             }
-            let (state, full) = full.get_or_insert_with(|| {
+            let (state, full, digest) = full.get_or_insert_with(|| {
                 let full = Full::of(&self.room, games);
                 let state = full.boards.clone();
-                (state, wire(&ServerMessage::Full(Box::new(full))))
+                (state, wire(&ServerMessage::Full(Box::new(full))), digest_of_room(games))
             });
             let message = match stream.form {
                 Form::State => {
                     let events = std::mem::take(&mut channel.events);
                     Some(ServerMessage::Change(Box::new(channel.boards.change_to(state, events))))
                 }
-                Form::Inputs => channel.next_inputs(stream, games, &mut self.digests).map(ServerMessage::Inputs),
+                Form::Inputs => channel.next_inputs(stream, tick, *digest).map(ServerMessage::Inputs),
             };
             channel.from = tick;
             // More was pressed than a frame holds: a full snapshot says it shorter.
@@ -132,11 +132,18 @@ impl Streams {
                 let _ = self.orders.send(Order::Frame { stream, frame: full.clone(), full: full.clone() });
             }
         }
+        if let Some((.., digest)) = full {
+            if self.digests.len() == REMEMBERED {
+                self.digests.pop_front();
+            }
+            self.digests.push_back((tick, digest));
+        }
     }
 
-    /// What the room's digest was at a tick, if that was sent and is remembered.
+    /// What the room's digest was at a tick, if a frame led to it and it is remembered.
     pub(crate) fn digest_at(&self, tick: u64) -> Option<u64> {
-        self.digests.iter().rev().find(|(at, _)| *at == tick).map(|(_, digest)| *digest)
+        let place = self.digests.binary_search_by_key(&tick, |&(at, _)| at).ok()?;
+        self.digests.get(place).map(|&(_, digest)| digest)
     }
 
     fn order(&self, order: Order) {
@@ -147,18 +154,10 @@ impl Streams {
 
 impl Channel {
     /// What was pressed since the last frame; `None` if that is more than a frame holds.
-    fn next_inputs(&mut self, stream: Stream, games: &[Game], digests: &mut VecDeque<(u64, u64)>) -> Option<Inputs> {
-        let to = games.first()?.tick();
+    fn next_inputs(&mut self, stream: Stream, to: u64, digest: u64) -> Option<Inputs> {
         self.since_digest += 1;
         let digest = (self.since_digest >= (stream.hz / DIGEST_HZ).max(1)).then(|| {
             self.since_digest = 0;
-            let digest = digest_of_room(games);
-            if digests.back() != Some(&(to, digest)) {
-                if digests.len() == REMEMBERED {
-                    digests.pop_front();
-                }
-                digests.push_back((to, digest));
-            }
             digest
         });
         let inputs = std::mem::take(&mut self.inputs);

@@ -22,11 +22,6 @@ pub(super) const AT_ONCE: usize = 48;
 /// The place of those who are served at once.
 const PROMPT: usize = 0;
 
-/// Whether who is in that slot is served at once.
-pub(super) fn is_prompt(slot: usize) -> bool {
-    slot == PROMPT
-}
-
 /// What holds for everybody who is served.
 pub(super) struct Terms<'a> {
     /// What whoever begins anew is told besides.
@@ -72,8 +67,14 @@ pub(super) struct Feed {
     ring: Ring,
     /// The first for those who are served at once, then one for each millisecond of the interval.
     slots: Vec<Vec<Subscriber>>,
-    /// The slot for the next who comes: they fill up evenly.
-    next_slot: usize,
+}
+
+/// What came of serving a slot.
+pub(super) struct Round {
+    /// Who is gone.
+    pub(super) gone: Vec<u32>,
+    /// Where to go on: its time was up.
+    pub(super) next: Option<usize>,
 }
 
 impl Feed {
@@ -81,7 +82,7 @@ impl Feed {
         let hz = usize::from(stream.hz);
         let ring = Ring { frames: VecDeque::new(), first: 0, most: KEPT_SECONDS * hz + KEPT_NEWS, full };
         let interval = 1000 / hz;
-        Self { ring, slots: (0..=interval).map(|_| Vec::new()).collect(), next_slot: 0 }
+        Self { ring, slots: (0..=interval).map(|_| Vec::new()).collect() }
     }
 
     /// The stream begins again; whoever is still here is about to leave.
@@ -114,9 +115,9 @@ impl Feed {
         let slot = if subscriber.is_prompt || self.slots[PROMPT].len() < AT_ONCE {
             PROMPT
         } else {
-            let intervals = self.slots.len() - 1;
-            self.next_slot = (self.next_slot + 1) % intervals;
-            self.next_slot + 1
+            // They fill up evenly, whoever leaves.
+            let emptiest = (PROMPT + 1..self.slots.len()).min_by_key(|&slot| self.slots[slot].len());
+            emptiest.unwrap_or(PROMPT)
         };
         self.slots[slot].push(subscriber);
         slot
@@ -128,35 +129,39 @@ impl Feed {
         Some(subscribers.swap_remove(place))
     }
 
-    /// Serves those whose turn it is; returns who is gone.
-    pub(super) fn serve_slot(&mut self, slot: u64, terms: &Terms<'_>) -> Vec<u32> {
+    /// Serves those whose turn it is, from the `first` of them on, for `time` at the most.
+    pub(super) fn serve_slot(&mut self, slot: u64, first: usize, time: Duration, terms: &Terms<'_>) -> Round {
         let intervals = (self.slots.len() - 1) as u64;
-        let mut gone = self.serve(1 + (slot % intervals) as usize, terms);
+        let mut round = self.serve(1 + (slot % intervals) as usize, first, Some(time), terms);
         // What those who are served at once had no room for must not wait for a frame that may never come.
-        if slot.is_multiple_of(intervals) {
-            gone.extend(self.serve(PROMPT, terms));
+        if slot.is_multiple_of(intervals) && round.next.is_none() {
+            round.gone.extend(self.serve(PROMPT, 0, None, terms).gone);
         }
-        gone
+        round
     }
 
     /// Serves those who are served at once; returns who is gone.
     pub(super) fn serve_prompt(&mut self, terms: &Terms<'_>) -> Vec<u32> {
-        self.serve(PROMPT, terms)
+        self.serve(PROMPT, 0, None, terms).gone
     }
 
-    fn serve(&mut self, slot: usize, terms: &Terms<'_>) -> Vec<u32> {
+    fn serve(&mut self, slot: usize, first: usize, time: Option<Duration>, terms: &Terms<'_>) -> Round {
+        let mut gone = Vec::new();
         if self.slots[slot].is_empty() {
-            return Vec::new();
+            return Round { gone, next: None };
         }
         let (ring, now) = (&self.ring, Instant::now());
-        let mut gone = Vec::new();
-        let mut place = 0;
+        let mut place = first;
         let mut served = 0;
         while let Some(subscriber) = self.slots[slot].get_mut(place) {
-            served += 1;
-            if served % IN_A_ROW == 0 {
+            if served == IN_A_ROW {
+                served = 0;
                 terms.next_wake.make_way();
+                if time.is_some_and(|time| now.elapsed() >= time) {
+                    return Round { gone, next: Some(place) };
+                }
             }
+            served += 1;
             match serve(ring, subscriber, now, terms) {
                 Served::Stays => place += 1,
                 Served::Gone(reason) => {
@@ -166,7 +171,7 @@ impl Feed {
                 }
             }
         }
-        gone
+        Round { gone, next: None }
     }
 
     /// Changes a subscriber and serves it; `true` if it is gone.

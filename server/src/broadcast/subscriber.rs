@@ -46,30 +46,31 @@ struct Queue {
     start: VecDeque<Bytes>,
     /// The number of the next frame of its stream.
     cursor: u64,
-    /// After what waits comes nothing more.
-    ends: bool,
+    /// After what waits comes nothing more, and whoever takes that only in drops loses it when its time is up.
+    ends: Option<Instant>,
 }
 
 impl Subscriber {
     pub(super) fn new(client: u32, transport: Box<dyn Outgoing>, ended: oneshot::Sender<String>) -> Self {
         let (own, start) = (VecDeque::new(), VecDeque::new());
-        let queue = Queue { begun: Bytes::new(), own, start, cursor: 0, ends: false };
+        let queue = Queue { begun: Bytes::new(), own, start, cursor: 0, ends: None };
         Self { client, is_prompt: false, transport, queue, waits_since: None, ended }
     }
 
     /// Something for it alone.
     pub(super) fn tell(&mut self, frame: Bytes) {
-        if !self.queue.ends {
+        if self.queue.ends.is_none() {
             self.queue.own.push_back(frame);
         }
     }
 
-    /// Nothing more is said to it after what waits for it alone and the last word, which may be none.
-    pub(super) fn end(&mut self, last: Bytes) {
+    /// Nothing more is said to it after what waits for it alone and the last word, which may be none; and not even that
+    /// for longer than `until`.
+    pub(super) fn end(&mut self, last: Bytes, until: Instant) {
         if !last.is_empty() {
             self.tell(last);
         }
-        self.queue.ends = true;
+        self.queue.ends.get_or_insert(until);
     }
 
     /// Goes on from the frame of that number once it has taken `frames`: a full snapshot and the news. Older ones that it has
@@ -95,6 +96,9 @@ impl Subscriber {
     pub(super) fn serve(&mut self, ring: &Ring, now: Instant, write_time: Duration) -> Served {
         if self.queue.own.len() > MOST_OWN {
             return Served::Gone("it takes too little of what it asks for".to_owned());
+        }
+        if self.queue.ends.is_some_and(|until| now >= until) {
+            return Served::Gone("it took its goodbye too slowly".to_owned());
         }
         while !self.queue.is_empty(ring) {
             let (wanted, outcome) = if let Some(frame) = self.queue.only(ring) {
@@ -127,7 +131,7 @@ impl Subscriber {
             }
         }
         self.waits_since = None;
-        if self.queue.ends { Served::Gone("its session is over".to_owned()) } else { Served::Stays }
+        if self.queue.ends.is_some() { Served::Gone("its session is over".to_owned()) } else { Served::Stays }
     }
 }
 
@@ -135,13 +139,13 @@ impl Queue {
     fn is_empty(&self, ring: &Ring) -> bool {
         let has_own = !self.begun.is_empty() || !self.own.is_empty();
         // After a goodbye nobody listens any more.
-        !has_own && (self.ends || self.start.is_empty() && self.cursor >= ring.end())
+        !has_own && (self.ends.is_some() || self.start.is_empty() && self.cursor >= ring.end())
     }
 
     /// The next frame of the stream, if nothing else waits.
     fn only<'a>(&self, ring: &'a Ring) -> Option<&'a Bytes> {
         let waits = !self.begun.is_empty() || !self.own.is_empty() || !self.start.is_empty();
-        if waits || self.ends || self.cursor + 1 != ring.end() {
+        if waits || self.ends.is_some() || self.cursor + 1 != ring.end() {
             return None;
         }
         ring.since(self.cursor)?.next()
@@ -150,8 +154,8 @@ impl Queue {
     /// What is to be written next; returns how many rows of bytes that are.
     fn gather<'a>(&'a self, ring: &'a Ring, waiting: &mut [IoSlice<'a>; AT_ONCE]) -> usize {
         let begun = std::iter::once(&self.begun).filter(|begun| !begun.is_empty());
-        let shared = if self.ends { None } else { ring.since(self.cursor) };
-        let shared = self.start.iter().chain(shared.into_iter().flatten()).filter(|_| !self.ends);
+        let shared = if self.ends.is_some() { None } else { ring.since(self.cursor) };
+        let shared = self.start.iter().chain(shared.into_iter().flatten()).filter(|_| self.ends.is_none());
         let mut count = 0;
         for (slot, frame) in waiting.iter_mut().zip(begun.chain(&self.own).chain(shared)) {
             *slot = IoSlice::new(frame);

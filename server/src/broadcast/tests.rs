@@ -126,6 +126,77 @@ async fn spectators_are_served_in_slots_and_players_at_once() {
     }
 }
 
+/// A spectator among the first, who are served at once anyhow, got a place, and was put in a slot by the next full snapshot.
+#[tokio::test(start_paused = true)]
+async fn who_gets_a_place_is_served_at_once_from_then_on() {
+    let (mut stage, pipe) = (Stage::new(), Pipe::with_room(1000));
+    let _end = stage.add(1, &pipe, STREAM);
+    stage.order(Order::Hurry { client: 1, is_prompt: true });
+    for client in 0..feed::AT_ONCE as u32 {
+        stage.add(10_000 + client, &Pipe::with_room(1_000_000), STREAM);
+    }
+    stage.order(Order::Switch { client: 1, stream: STREAM });
+    pipe.take();
+    stage.frame(STREAM, 1);
+    assert_eq!(pipe.take(), "1.");
+}
+
+/// Whoever left made their slot smaller, and whoever came did not fill it.
+#[tokio::test(start_paused = true)]
+async fn slots_stay_even_whoever_comes_and_goes() {
+    let mut stage = Stage::crowded();
+    let pipe = Pipe::with_room(1_000_000);
+    let mut ends: Vec<_> = (0..200).map(|n| stage.add(n, &pipe, STREAM)).collect();
+    for round in 0..50 {
+        // The same hundred slots lose theirs, again and again.
+        for n in 0..100 {
+            stage.order(Order::Remove { client: 1000 * round + n, last: Bytes::new() });
+        }
+        ends.extend((0..100).map(|n| stage.add(1000 * (round + 1) + n, &pipe, STREAM)));
+    }
+    for millisecond in 1..=100 {
+        pipe.take();
+        stage.frame(STREAM, millisecond);
+        stage.pass(Duration::from_millis(1)).await;
+        let bytes = pipe.take().len();
+        assert!(bytes > 0, "nobody in slot {millisecond}");
+    }
+}
+
+/// One slot of thousands held up everybody else for as long as it took.
+#[tokio::test]
+async fn a_slot_that_takes_longer_than_its_millisecond_is_served_in_pieces() {
+    let mut stage = Stage::crowded();
+    let pipe = Pipe::with_room(usize::MAX / 2);
+    let _ends: Vec<_> = (0..4_000).map(|n| stage.add(n, &pipe, STREAM)).collect();
+    stage.frame(STREAM, 1);
+    let terms = terms(&stage.broadcast.news, stage.broadcast.patience, &stage.broadcast.next_wake);
+    let feed = stage.broadcast.feeds.get_mut(&STREAM).unwrap();
+    pipe.take();
+    let (mut from, mut pieces) = (Some(0), 0);
+    while let Some(first) = from {
+        from = feed.serve_slot(1, first, Duration::ZERO, &terms).next;
+        pieces += 1;
+    }
+    // Forty in it, sixteen in a row.
+    assert_eq!((pieces, pipe.take().len()), (3, 40 * 2));
+}
+
+/// A client that is to go and takes a byte now and then kept its place among the connections for ever.
+#[tokio::test(start_paused = true)]
+async fn a_goodbye_in_drops_ends_when_its_time_is_up() {
+    let (mut stage, pipe) = (Stage::new(), Pipe::with_room(3));
+    let mut end = stage.add(1, &pipe, STREAM);
+    stage.order(Order::Remove { client: 1, last: Bytes::from(vec![b'.'; 1000]) });
+    for second in 0..10 {
+        assert!(end.try_recv().is_err(), "{second}");
+        pipe.make_room(1);
+        tokio::time::advance(Duration::from_secs(1)).await;
+        stage.interval().await;
+    }
+    assert!(end.try_recv().is_ok_and(|reason| reason.contains("too slowly")));
+}
+
 #[tokio::test(start_paused = true)]
 async fn in_a_small_room_nobody_waits_for_a_turn() {
     let (mut stage, pipe) = (Stage::new(), Pipe::with_room(1000));
@@ -167,7 +238,7 @@ async fn who_lags_too_far_jumps_to_the_newest_full_snapshot() {
     stage.interval().await;
     let taken = pipe.take();
     // It jumped when its next frame was no longer kept, and what came since is still there.
-    assert_eq!(taken, format!(".F180.R.{}", (181..200).map(|number| format!("{number}.")).collect::<String>()));
+    assert_eq!(taken, format!(".F179.R.{}", (180..200).map(|number| format!("{number}.")).collect::<String>()));
     stage.frame(STREAM, 200);
     stage.interval().await;
     assert_eq!(pipe.take(), "200.");

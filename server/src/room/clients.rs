@@ -3,12 +3,11 @@
 use bytes::Bytes;
 use shared::game::SEATS;
 use shared::physics::PHYSICS_VERSION;
-use shared::protocol::{
-    ClientMessage, Hello, REQUEST_SECONDS, Role, ServerMessage, Stream, Welcome, encode_greeting, framed,
-};
+use shared::protocol::{ClientMessage, Hello, Role, ServerMessage, Welcome, encode_greeting, framed};
 use tokio::sync::oneshot;
 
-use super::{Follower, Room};
+use super::Room;
+use super::wishes::Follower;
 use crate::broadcast::Order;
 use crate::config::Config;
 use crate::session::{SessionState, is_legal};
@@ -32,18 +31,19 @@ impl Room {
         }
         let client = self.next_client;
         self.next_client = self.next_client.wrapping_add(1);
-        if reply.send(Some(client)).is_err() {
-            return;
-        }
         self.account.clients += 1;
         let Hello { name, role, stream } = hello;
         self.streams.follow(stream, &self.games);
-        self.followers.insert(client, Follower { stream, next_full: 0 });
+        self.followers.insert(client, Follower::new(stream));
         self.order(Order::Add { client, transport, stream, greeting: self.welcome.clone(), ended });
         self.lobby.add(client, name);
         if role == Role::Play {
             let deeds = self.lobby.play(client, self.view());
             self.perform(&deeds);
+        }
+        // Only now: what the connection says next must find it.
+        if reply.send(Some(client)).is_err() {
+            self.forget(client, Bytes::new());
         }
     }
 
@@ -59,50 +59,32 @@ impl Room {
                     self.account.controls += u64::from(self.controls.act(self.now(), place, tick, action));
                 }
             }
-            // A loser must not begin the next game before those who wait have come up for it.
-            ClientMessage::Play if self.result.is_some() && matches!(state, SessionState::Seated(_)) => {}
-            ClientMessage::Play => {
-                let deeds = self.lobby.play(client, self.view());
-                self.perform(&deeds);
-            }
-            ClientMessage::Leave => {
-                let deeds = self.lobby.leave(client, self.view());
-                self.perform(&deeds);
-            }
+            ClientMessage::Play => self.wish_place(client, true),
+            ClientMessage::Leave => self.wish_place(client, false),
             // Connections answer themselves.
             ClientMessage::Ping { .. } => {}
-            ClientMessage::Stream(stream) => self.switch(client, stream),
+            ClientMessage::Stream(stream) => self.wish_stream(client, stream),
             ClientMessage::Differs { tick, digest } => self.hear_difference(client, tick, digest),
             ClientMessage::Vote { action } => self.hear_vote(client, state, action),
         }
     }
 
-    fn switch(&mut self, client: u32, stream: Stream) {
-        let Some(follower) = self.followers.get_mut(&client) else { return };
-        let before = std::mem::replace(&mut follower.stream, stream);
-        self.streams.follow(stream, &self.games);
-        self.order(Order::Switch { client, stream });
-        self.streams.unfollow(before);
-    }
-
     /// A client's copy is not what the game is, which must never be, or it missed something. It gets a full snapshot.
     fn hear_difference(&mut self, client: u32, tick: u64, theirs: u64) {
-        self.account.differing += 1;
-        let now = self.now();
-        let pause = self.ticks(REQUEST_SECONDS);
-        let Some(follower) = self.followers.get_mut(&client) else { return };
-        if now < follower.next_full {
-            return;
-        }
-        follower.next_full = now + pause;
-        let stream = follower.stream;
-        match self.streams.digest_at(tick) {
-            Some(ours) if theirs != 0 => {
-                tracing::warn!(client, "differs at tick {tick}: {theirs:016x} there, {ours:016x} here");
+        if theirs == 0 {
+            self.account.gaps += 1;
+            tracing::debug!(client, "asks for a full snapshot at tick {tick}");
+        } else {
+            self.account.differing += 1;
+            if self.chatter.may_speak() {
+                let ours = self.streams.digest_at(tick);
+                let ours = ours.map_or_else(|| "none remembered".to_owned(), |digest| format!("{digest:016x}"));
+                tracing::warn!(client, "differs at tick {tick}: {theirs:016x} there, {ours} here");
             }
-            _ => tracing::info!(client, "asks for a full snapshot at tick {tick}"),
         }
-        self.order(Order::Switch { client, stream });
+        if let Some(stream) = self.may_have_full(client) {
+            self.order(Order::Switch { client, stream });
+        }
     }
 
     pub(super) fn expel(&mut self, client: u32, reason: String) {

@@ -6,7 +6,7 @@ use crate::session::SessionState;
 use crate::transport::Outgoing;
 use shared::game::replay::Recorder;
 use shared::game::{Action, Nudge};
-use shared::protocol::{ClientMessage, Hello, Inputs, Role, Roster, decode_from_server};
+use shared::protocol::{ClientMessage, Form, Hello, Inputs, Role, Roster, Stream, decode_from_server};
 use shared::table::{SHIPPED, Table};
 use tokio::sync::{mpsc, oneshot};
 
@@ -39,6 +39,11 @@ impl Stage {
         let hello = Hello { name: name.to_owned(), role, stream: Stream::SPECTATOR };
         self.room.handle(Command::Join { hello, transport: Box::new(Nowhere), ended, reply });
         joined.try_recv().expect("an answer").expect("there is room")
+    }
+
+    /// The place of that name in the last roster.
+    fn roster_place(&self, name: &str) -> Option<usize> {
+        self.roster.places.iter().position(|place| place.as_deref() == Some(name))
     }
 
     fn say(&mut self, client: u32, message: ClientMessage) {
@@ -235,4 +240,134 @@ fn a_request_for_a_full_snapshot_is_heeded_once_a_second() {
         stage.run(100);
     }
     assert_eq!((given, stage.room.account.differing), (3, 30));
+}
+
+/// A flood of valid messages made the server send a full snapshot for each.
+#[test]
+fn a_flood_of_wishes_costs_one_full_snapshot_a_second_and_the_last_one_is_heeded() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    let ann = stage.join("Ann", Role::Watch);
+    stage.run(1);
+    while stage.orders.try_recv().is_ok() {}
+    let mut switches = Vec::new();
+    for n in 0..300_u64 {
+        let hz = if n % 2 == 0 { 60 } else { 30 };
+        stage.say(ann, ClientMessage::Stream(Stream { form: Form::State, hz }));
+        stage.say(ann, ClientMessage::Differs { tick: 1, digest: 0 });
+        for _ in 0..10 {
+            stage.room.tick();
+            while let Ok(order) = stage.orders.try_recv() {
+                if let Order::Switch { stream, .. } = order {
+                    switches.push(stream);
+                }
+            }
+        }
+    }
+    assert!((3..=4).contains(&switches.len()), "in three seconds: {switches:?}");
+    stage.say(ann, ClientMessage::Stream(Stream::SPECTATOR));
+    stage.run(1_001);
+    assert_eq!(stage.room.followers[&ann].stream, Stream::SPECTATOR);
+    while stage.orders.try_recv().is_ok() {}
+    stage.say(ann, ClientMessage::Stream(Stream::SPECTATOR));
+    assert!(stage.orders.try_recv().is_err(), "what it has already is nothing new");
+}
+
+/// Whoever asked for a place and gave it back all the time had everybody in line told each time.
+#[test]
+fn coming_and_going_all_the_time_is_nobodys_business() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    stage.room.lobby = Lobby::new(Mode::Challenge, 1, false, Arc::new(Chatter::new("a test")));
+    stage.join("Ann", Role::Play);
+    let eve = stage.join("Eve", Role::Play);
+    for n in 0..200 {
+        stage.join(&format!("Bob {n}"), Role::Play);
+    }
+    stage.run(2_000);
+    while stage.orders.try_recv().is_ok() {}
+    let mut told = 0;
+    for _ in 0..100 {
+        stage.say(eve, ClientMessage::Leave);
+        stage.say(eve, ClientMessage::Play);
+        for _ in 0..10 {
+            stage.room.tick();
+            while let Ok(order) = stage.orders.try_recv() {
+                told += usize::from(matches!(order, Order::Tell { .. } | Order::Hurry { .. }));
+            }
+        }
+    }
+    // She is at the end of the line after the first time; then everybody has moved up once, and that is all.
+    assert!((200..220).contains(&told), "{told}");
+}
+
+#[test]
+fn every_difference_is_counted_and_found_with_both_digests() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    let ann = stage.join("Ann", Role::Watch);
+    stage.run(1_000);
+    // At any tick that a frame led to, the ones of periodic full snapshots too.
+    let tick = stage.game().tick();
+    stage.run_until("a frame", |stage| stage.inputs.last().is_some_and(|inputs| inputs.to > tick));
+    let with_digest = stage.inputs.iter().rev().find(|inputs| inputs.digest.is_some());
+    let sent = with_digest.and_then(|inputs| Some((inputs.to, inputs.digest?))).expect("a digest");
+    assert_eq!(stage.room.streams.digest_at(sent.0), Some(sent.1));
+    for _ in 0..5 {
+        stage.say(ann, ClientMessage::Differs { tick: sent.0, digest: 5 });
+    }
+    stage.say(ann, ClientMessage::Differs { tick: sent.0, digest: 0 });
+    assert_eq!((stage.room.account.differing, stage.room.account.gaps), (5, 1));
+}
+
+/// Whoever had the last place in line came up while the result stood, and nobody began a game for the two.
+#[test]
+fn who_comes_up_while_the_result_stands_gets_a_game() {
+    let mut config = quiet(ball_eater(), Mode::Challenge);
+    config.places = 2;
+    let mut stage = Stage::new(config);
+    let ann = stage.join("Ann", Role::Play);
+    stage.join("Bob", Role::Play);
+    stage.run_until("a ball", |stage| !stage.game().is_at_start());
+    stage.join("Cid", Role::Play);
+    stage.run_until("the game is over", |stage| matches!(stage.game().phase(), Phase::Over));
+    stage.say(ann, ClientMessage::Leave);
+    stage.run(10);
+    assert_eq!(stage.roster_place("Cid"), Some(0));
+    stage.run_until("the next game", |stage| matches!(stage.game().phase(), Phase::Play { .. }));
+}
+
+/// Whoever was left when the others had gone made room as if they had played alone.
+#[test]
+fn who_wins_because_the_others_left_stays() {
+    let mut config = quiet(ball_eater(), Mode::Challenge);
+    config.places = 2;
+    let mut stage = Stage::new(config);
+    let ann = stage.join("Ann", Role::Play);
+    stage.join("Bob", Role::Play);
+    stage.run_until("a ball", |stage| !stage.game().is_at_start());
+    stage.say(ann, ClientMessage::Leave);
+    let names = ["Cid", "Dan"];
+    for name in names {
+        stage.join(name, Role::Play);
+    }
+    stage.run_until("the game is over", |stage| matches!(stage.game().phase(), Phase::Over));
+    stage.run(2_500);
+    assert_eq!((stage.roster_place("Bob"), stage.roster_place("Cid")), (Some(1), Some(0)));
+    assert_eq!(stage.roster.champion, Some((1, 1)));
+}
+
+#[test]
+fn who_comes_to_play_takes_no_vote_along() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Crowd));
+    stage.join("Ann", Role::Play);
+    let bob = stage.join("Bob", Role::Watch);
+    stage.run(1_000);
+    stage.say(bob, ClientMessage::Vote { action: 0 });
+    assert!(stage.room.votes.take_tally(5).is_some_and(|tally| tally.votes[0] == 1));
+    let ann = stage.room.lobby.sitter(0);
+    if let Some(Sitter::Client(ann)) = ann {
+        stage.say(bob, ClientMessage::Play);
+        stage.say(ann, ClientMessage::Leave);
+    }
+    stage.run(1);
+    assert_eq!(stage.room.lobby.sitter(0), Some(Sitter::Client(bob)));
+    assert!(stage.room.votes.count(u64::MAX, 5, |_| true).is_none(), "nobody votes against themselves");
 }

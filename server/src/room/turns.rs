@@ -1,6 +1,6 @@
 //! Whose turn it is to play: who is seated when, when a game begins, who idles, who stays after it; and what the crowd does.
 
-use shared::game::{Action, HOUSE, Input, Phase};
+use shared::game::{Action, Game, HOUSE, Input, Phase};
 use shared::protocol::BoardInput;
 
 use super::{BOT_PATIENCE, NEXT_GAME_PAUSE, Outcome, RESULT_PAUSE, Room};
@@ -44,7 +44,9 @@ impl Room {
                 continue;
             }
             if self.controls.is_idle(board, &self.games[board], place, most) {
-                tracing::info!("{} does nothing and loses the turn", self.lobby.name_of(place));
+                if self.chatter.may_speak() {
+                    tracing::info!("{} does nothing and loses the turn", self.lobby.name_of(place));
+                }
                 self.account.forfeited += 1;
                 self.controls.perform(self.now(), place, Action::Forfeit);
             }
@@ -61,35 +63,61 @@ impl Room {
         }
     }
 
+    /// 4. A game began: whatever was left of the one before is of no interest any more.
+    pub(super) fn begin_game(&mut self) {
+        self.votes.clear();
+        self.result = None;
+        self.contestants = 0;
+    }
+
     /// 4. After a game, and when its result has stood for a moment: who stays, who makes room.
     pub(super) fn note_end_of_game(&mut self) {
         let is_playing = self.is_playing();
+        if is_playing {
+            let playing = self.games.iter().flat_map(Game::seats).filter(|seat| seat.playing).count();
+            self.contestants = self.contestants.max(playing);
+        }
         if std::mem::replace(&mut self.was_playing, is_playing) && !is_playing {
-            let mut scores = Vec::new();
-            for (board, game) in (0_u8..).zip(&self.games) {
-                for (seat, seated) in (0_u8..).zip(game.seats()) {
-                    // A game that ended because everybody left was nobody's.
-                    if seated.playing && matches!(game.phase(), Phase::Over) {
-                        let place = if self.games.len() > 1 { board } else { seat };
-                        tracing::info!("game over: {} has {} points", self.lobby.name_of(place), seated.score.points);
-                        scores.extend(self.lobby.sitter(place).map(|sitter| (place, sitter, seated.score.points)));
+            self.result = self.outcome();
+            self.votes.clear();
+        }
+        let now = self.now();
+        if let Some(result) = self.result.take_if(|result| now >= result.stands_until) {
+            self.settle(result);
+        }
+    }
+
+    /// How the game that has just ended came out; `None` if everybody left.
+    fn outcome(&self) -> Option<Outcome> {
+        let mut scores = Vec::new();
+        for (board, game) in (0_u8..).zip(&self.games) {
+            for (seat, seated) in (0_u8..).zip(game.seats()) {
+                if seated.playing && matches!(game.phase(), Phase::Over) {
+                    let (place, points) = (if self.games.len() > 1 { board } else { seat }, seated.score.points);
+                    if self.chatter.may_speak() {
+                        tracing::info!("game over: {} has {points} points", self.lobby.name_of(place));
                     }
+                    scores.extend(self.lobby.sitter(place).map(|sitter| (place, sitter, points)));
                 }
             }
-            self.votes.clear();
-            // Whoever has to make room sees the result first.
-            let pause = if self.lobby.has_line() { self.ticks(RESULT_PAUSE) } else { 0 };
-            self.result = (!scores.is_empty()).then_some(Outcome { stands_until: self.now() + pause, scores });
         }
-        if self.result.as_ref().is_some_and(|result| self.now() >= result.stands_until)
-            && let Some(Outcome { scores, .. }) = self.result.take()
-        {
-            let stayed = scores.into_iter().filter(|&(place, sitter, _)| self.lobby.sitter(place) == Some(sitter));
-            let scores: Vec<(u8, u64)> = stayed.map(|(place, _, points)| (place, points)).collect();
-            let had_line = self.lobby.has_line();
-            let deeds = self.lobby.make_room(&scores);
-            self.perform(&deeds);
-            self.next_game_in = if had_line { self.ticks(NEXT_GAME_PAUSE) } else { 0 };
-        }
+        // Whoever is left alone has won too; the first one of equals.
+        let best = scores.iter().max_by_key(|&&(place, _, points)| (points, u8::MAX - place));
+        let winner = best.filter(|_| self.contestants > 1).map(|&(place, ..)| place);
+        let had_line = self.lobby.has_line();
+        // Whoever has to make room sees the result first.
+        let pause = if had_line { self.ticks(RESULT_PAUSE) } else { 0 };
+        (!scores.is_empty()).then_some(Outcome { stands_until: self.now() + pause, scores, winner, had_line })
+    }
+
+    fn settle(&mut self, result: Outcome) {
+        let stays = |place: u8, sitter| self.lobby.sitter(place) == Some(sitter);
+        let stayed: Vec<_> = result.scores.into_iter().filter(|&(place, sitter, _)| stays(place, sitter)).collect();
+        let winner = result.winner.filter(|winner| stayed.iter().any(|(place, ..)| place == winner));
+        let scores: Vec<(u8, u64)> = stayed.iter().map(|&(place, _, points)| (place, points)).collect();
+        let had_line = result.had_line || self.lobby.has_line();
+        let deeds = self.lobby.make_room(&scores, winner);
+        self.perform(&deeds);
+        self.next_game_in = if had_line { self.ticks(NEXT_GAME_PAUSE) } else { 0 };
     }
 }
