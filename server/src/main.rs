@@ -270,9 +270,11 @@ fn main() -> ExitCode {
 
 fn serve(arguments: &Serve) -> Result<(), String> {
     let filter = EnvFilter::try_from_default_env().unwrap_or_else(|_| EnvFilter::new("info"));
+    // Lines that nobody takes are dropped: the room waits for no terminal.
+    let (writer, _flushes_when_dropped) = tracing_appender::non_blocking(std::io::stderr());
     tracing_subscriber::fmt()
         .with_env_filter(filter)
-        .with_writer(std::io::stderr)
+        .with_writer(writer)
         .with_ansi(std::io::stderr().is_terminal())
         .with_target(false)
         .init();

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use shared::game::{Action, Phase};
-use shared::protocol::{ClientMessage, Hello, Role, ServerMessage, Stream, encode, encode_greeting};
+use shared::protocol::{ClientMessage, Form, Hello, Mode, Role, ServerMessage, Stream, encode, encode_greeting};
 use tokio::io::AsyncWriteExt;
 
 use crate::harness::{Client, Server, Wire, quiet};
@@ -95,6 +95,56 @@ async fn a_flood_of_leaves_does_not_drown_the_others() {
     }
     assert!(rosters <= snapshots + 1, "{rosters} rosters with {snapshots} snapshots");
     server.stop().await;
+}
+
+/// Each of these is valid, and was heeded as often as it was said.
+#[tokio::test]
+async fn a_flood_of_valid_messages_is_answered_in_moderation() {
+    let mut config = quiet();
+    config.mode = Mode::Crowd;
+    config.most_messages = 250;
+    let server = Server::start(config).await;
+    let mut ann = Client::watch(&server, "Ann").await;
+    let _bob = Client::play(&server, "Bob").await;
+    let mut eve = Client::watch(&server, "Eve").await;
+    ann.until("all are there", |ann| ann.roster.spectators == 2).await;
+    let before = ann.snapshot().await.tick;
+    let began = Instant::now();
+    let answers = tokio::spawn(async move {
+        let (mut fulls, mut pongs, mut places) = (0, 0, 0);
+        for n in 0..80_u64 {
+            let stream = Stream { form: Form::State, hz: if n % 2 == 0 { 30 } else { 60 } };
+            let flood = [
+                ClientMessage::Stream(stream),
+                ClientMessage::Differs { tick: n, digest: 0 },
+                ClientMessage::Play,
+                ClientMessage::Leave,
+                ClientMessage::Vote { action: (n % 5) as u8 },
+                ClientMessage::Ping { nonce: n },
+            ];
+            for message in flood {
+                eve.say(message).await;
+            }
+            tokio::time::sleep(Duration::from_millis(25)).await;
+            let mut count = |message| match message {
+                ServerMessage::Full(_) => fulls += 1,
+                ServerMessage::Pong { .. } => pongs += 1,
+                ServerMessage::You { .. } => places += 1,
+                _ => {}
+            };
+            while let Ok(message) = tokio::time::timeout(Duration::from_millis(1), eve.hear()).await {
+                count(message);
+            }
+        }
+        (fulls, pongs, places)
+    });
+    let (fulls, pongs, places) = answers.await.expect("she is not sent away");
+    let seconds = began.elapsed().as_secs_f64();
+    assert!(f64::from(fulls) <= 2.0 + seconds, "{fulls} full snapshots in {seconds} s");
+    assert!(f64::from(pongs) <= 41.0 + 20.0 * seconds && pongs > 0, "{pongs} pongs in {seconds} s");
+    assert!(f64::from(places) <= 4.0 + 4.0 * seconds, "{places} answers about places in {seconds} s");
+    while ann.snapshot().await.tick < before + (seconds * 1000.0) as u64 {}
+    assert_eq!((ann.mismatches, server.stop().await.illegal), (0, 0));
 }
 
 #[tokio::test]
