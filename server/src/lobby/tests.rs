@@ -1,6 +1,8 @@
 //! Who sits where, in each mode.
 
+use super::told::TOLD_AT_ONCE;
 use super::*;
+use shared::protocol::ServerMessage;
 
 const START: GameView = GameView { is_at_start: true, is_playing: false };
 const EARLY: GameView = GameView { is_at_start: true, is_playing: true };

@@ -371,3 +371,31 @@ fn who_comes_to_play_takes_no_vote_along() {
     assert_eq!(stage.room.lobby.sitter(0), Some(Sitter::Client(bob)));
     assert!(stage.room.votes.count(u64::MAX, 5, |_| true).is_none(), "nobody votes against themselves");
 }
+
+/// The last player left, the next one began within the same tick, and the votes against the one went on against the other.
+#[test]
+fn votes_end_with_the_game_that_they_were_for() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Crowd));
+    let ann = stage.join("Ann", Role::Play);
+    stage.join("Bob", Role::Play);
+    let cid = stage.join("Cid", Role::Watch);
+    stage.run(1_000);
+    stage.say(cid, ClientMessage::Vote { action: 0 });
+    stage.say(ann, ClientMessage::Leave);
+    stage.run(1);
+    assert_eq!((stage.room.account.games, stage.room.is_playing()), (2, true));
+    assert!(stage.room.votes.count(u64::MAX, 5, |_| true).is_none());
+}
+
+/// A connection that ended while it waited to be let in kept its place for ever.
+#[test]
+fn who_is_gone_before_the_answer_is_forgotten() {
+    let mut stage = Stage::new(quiet(classic(), Mode::Challenge));
+    let (ended, _) = oneshot::channel();
+    let (reply, joined) = oneshot::channel();
+    drop(joined);
+    let hello = Hello { name: "Ann".to_owned(), role: Role::Play, stream: Stream::SPECTATOR };
+    stage.room.handle(Command::Join { hello, transport: Box::new(Nowhere), ended, reply });
+    stage.run(1);
+    assert_eq!((stage.room.lobby.len(), stage.room.followers.len(), stage.room.lobby.has_people()), (0, 0, false));
+}
