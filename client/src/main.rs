@@ -7,6 +7,7 @@
 mod app;
 mod arguments;
 mod assemble;
+mod budget;
 mod controls;
 mod display;
 mod effects;

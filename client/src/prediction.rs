@@ -8,6 +8,7 @@ use std::collections::VecDeque;
 
 use shared::game::{Action, Game, GameEvent, Input};
 
+use crate::budget::Budget;
 use crate::moment::Moment;
 
 /// Predicted ticks whose digests are kept: four times the largest lead.
@@ -67,9 +68,9 @@ impl Prediction {
         tick
     }
 
-    /// Steps until `tick` is the next one; `show` gets what happens.
-    pub(crate) fn advance(&mut self, tick: u64, mut show: impl FnMut(&GameEvent)) {
-        while self.game.tick() < tick {
+    /// Steps until `tick` is the next one, or the budget is spent; `show` gets what happens.
+    pub(crate) fn advance(&mut self, tick: u64, budget: &mut Budget, mut show: impl FnMut(&GameEvent)) {
+        while self.game.tick() < tick && budget.take() {
             self.game.step(&self.inputs).iter().for_each(&mut show);
             if self.digests.len() == MOST_DIGESTS {
                 self.digests.pop_front();
@@ -79,7 +80,7 @@ impl Prediction {
     }
 
     /// Compares with the server's `game`, and goes back to it if they differ. `None` if it is no newer than the last.
-    pub(crate) fn confirm(&mut self, game: &Game) -> Option<Verdict> {
+    pub(crate) fn confirm(&mut self, game: &Game, budget: &mut Budget) -> Option<Verdict> {
         let (tick, reached) = (game.tick(), self.game.tick());
         if tick <= self.confirmed {
             return None;
@@ -97,7 +98,7 @@ impl Prediction {
         self.digests.clear();
         self.digests.push_back(self.game.digest());
         // What happens on the way has been shown already, or was shown wrongly: either way it is past.
-        self.advance(reached, |_| {});
+        self.advance(reached, budget, |_| {});
         Some(if predicted.is_some() { Verdict::Wrong } else { Verdict::Unknown })
     }
 }
@@ -147,7 +148,7 @@ mod tests {
             while self.down.front().is_some_and(|(arrival, _)| *arrival <= now) {
                 let (_, game) = self.down.pop_front().unwrap();
                 let prediction = self.prediction.get_or_insert_with(|| Prediction::new(&game, 0));
-                match prediction.confirm(&game) {
+                match prediction.confirm(&game, &mut Budget::endless()) {
                     Some(Verdict::Right) => self.right += 1,
                     Some(Verdict::Wrong) => self.wrong += 1,
                     Some(Verdict::Unknown) | None => {}
@@ -158,7 +159,7 @@ mod tests {
                 let tick = prediction.act(now + lead, action);
                 self.up.push((now + WAY, Input { tick, seat: 0, action }));
             }
-            prediction.advance(now + lead, |_| {});
+            prediction.advance(now + lead, &mut Budget::endless(), |_| {});
         }
     }
 
@@ -223,8 +224,8 @@ mod tests {
         let from = prediction.tick();
         prediction.act(0, Action::Flipper { right: true, pressed: true });
         let mut flips = Vec::new();
-        prediction.advance(from + 50, |event| flips.push(event.tick));
-        prediction.advance(from + 50, |event| flips.push(event.tick));
+        prediction.advance(from + 50, &mut Budget::endless(), |event| flips.push(event.tick));
+        prediction.advance(from + 50, &mut Budget::endless(), |event| flips.push(event.tick));
         assert_eq!(flips, [from]);
         assert_eq!(prediction.tick(), from + 50);
     }

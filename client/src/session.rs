@@ -20,6 +20,7 @@ use shared::physics::PHYSICS_VERSION;
 use shared::protocol::{ClientMessage, Form, Heard, Mode, Role, Roster, ServerMessage, Stream, Tally, Welcome};
 use shared::table::Table;
 
+use crate::budget::Budget;
 use crate::effects::Effects;
 use crate::moment::Moment;
 use crate::prediction::Prediction;
@@ -108,6 +109,8 @@ pub(crate) struct Session {
     heard_at: f64,
     began_at: Option<f64>,
     contest: Contest,
+    /// What may still be computed for the next picture.
+    budget: Budget,
     outbox: Vec<ClientMessage>,
     counts: Counts,
 }
@@ -154,6 +157,7 @@ impl Session {
             heard_at: 0.0,
             began_at: None,
             contest: Contest::default(),
+            budget: Budget::of_picture(tick_seconds, 1),
             outbox: Vec::new(),
             counts: Counts::default(),
             table,

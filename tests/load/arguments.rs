@@ -47,6 +47,10 @@ pub(crate) struct Arguments {
     /// Besides, malformed frames a second, each on a connection of its own.
     #[arg(long, default_value_t = 0, value_name = "R", value_parser = clap::value_parser!(u32).range(0..=10_000))]
     pub(crate) malformed: u32,
+    /// Besides, connections that send what is valid and costly, each as many messages a second as servers let through:
+    /// another stream, a full snapshot, a place and away, pings.
+    #[arg(long, default_value_t = 0, value_name = "N", value_parser = clap::value_parser!(u32).range(0..=10_000))]
+    pub(crate) floods: u32,
     /// What the bots' habits and the misbehaviour follow from.
     #[arg(long, default_value_t = 1)]
     pub(crate) seed: u64,
@@ -83,7 +87,7 @@ impl Arguments {
     /// How many it would have to be.
     pub(crate) fn check_open_files(&self) -> Result<(), String> {
         // Hostile connections live for a second or two at the most.
-        let connections = [self.spectators, self.bots, self.stalled, 2 * self.churn, 2 * self.malformed];
+        let connections = [self.spectators, self.bots, self.stalled, self.floods, 2 * self.churn, 2 * self.malformed];
         let needed = connections.into_iter().map(u64::from).sum::<u64>() + OTHER_FILES;
         let allowed = std::fs::read_to_string(Path::new("/proc/self/limits")).ok().and_then(|limits| {
             let line = limits.lines().find_map(|line| line.strip_prefix("Max open files"))?;

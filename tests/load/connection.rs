@@ -31,6 +31,8 @@ pub(crate) enum Kind {
     Probe,
     /// To read nothing.
     Stalled,
+    /// To send what is valid and costly. What comes back is read and thrown away.
+    Flood,
     /// To be dropped.
     Churn { greets: bool },
     /// To send this, which is no message.
@@ -132,6 +134,7 @@ impl Connection {
             Kind::Bot { number, .. } => (format!("bot {number}"), Role::Play, Stream::PLAYER),
             Kind::Probe => ("probe".to_owned(), Role::Watch, Stream::SPECTATOR),
             Kind::Stalled => ("stalled".to_owned(), Role::Watch, Stream::PLAYER),
+            Kind::Flood => ("flood".to_owned(), Role::Watch, Stream::PLAYER),
             Kind::Churn { greets: true } | Kind::Malformed { greets: true, .. } => {
                 ("passer-by".to_owned(), Role::Watch, Stream::SPECTATOR)
             }
@@ -265,7 +268,7 @@ impl Connection {
             Kind::Probe => {
                 table_of(&welcome, shared)?;
             }
-            Kind::Stalled | Kind::Churn { .. } => self.stage = Stage::Begun,
+            Kind::Stalled | Kind::Flood | Kind::Churn { .. } => self.stage = Stage::Begun,
             Kind::Malformed { .. } => self.send_malformed(shared)?,
         }
         Ok(())

@@ -3,6 +3,8 @@
 //! Frames count from a common start, after all have joined. Misbehaviour begins there too, but for the connections that
 //! stall, which are opened with the others.
 
+mod talk;
+
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::io::ErrorKind;
@@ -12,7 +14,6 @@ use std::time::{Duration, Instant};
 use mio::event::Event;
 use mio::{Events, Interest, Poll, Token};
 use shared::math::Rng;
-use shared::protocol::{ClientMessage, encode, framed};
 
 use crate::arguments::Arguments;
 use crate::clock::Clock;
@@ -26,11 +27,6 @@ const MOST_JOINING: usize = 200;
 const JOIN_PATIENCE: u64 = 30_000_000;
 /// What comes with joining is over after so long.
 const SETTLE: u64 = 1_000_000;
-/// Each spectator pings once in so many seconds: servers end sessions that are silent for 15.
-const PING_SECONDS: f64 = 5.0;
-/// Pings a second of a player, and of the connection that asks for the time.
-const BOT_PINGS: f64 = 4.0;
-const PROBE_PINGS: f64 = 20.0;
 /// The system is asked at least so often.
 const WAIT: Duration = Duration::from_millis(2);
 /// How long a connection lives that is to be dropped, at the most, and one on which a malformed frame was sent, if the server does not
@@ -62,6 +58,8 @@ pub(crate) struct Fleet {
     last_begun: u64,
     /// The bots and the one that asks for the time.
     quick: Vec<usize>,
+    /// Those that flood.
+    floods: Vec<usize>,
     ping_pace: [Pace; 3],
     pinged: usize,
     first_reason: Option<String>,
@@ -70,7 +68,6 @@ pub(crate) struct Fleet {
 
 impl Fleet {
     pub(crate) fn new(arguments: Arguments) -> std::io::Result<Self> {
-        let rates = [1.0, BOT_PINGS, PROBE_PINGS];
         Ok(Self {
             address: arguments.connect,
             poll: Poll::new()?,
@@ -93,7 +90,8 @@ impl Fleet {
             begun: 0,
             last_begun: 0,
             quick: Vec::new(),
-            ping_pace: rates.map(|rate| Pace::new(rate, 0)),
+            floods: Vec::new(),
+            ping_pace: talk::ping_paces(),
             pinged: 0,
             first_reason: None,
             rng: Rng::new(arguments.seed),
@@ -117,6 +115,7 @@ impl Fleet {
         let before = Usages::now(self.arguments.process);
         let mut churn = Pace::new(f64::from(self.arguments.churn), start);
         let mut malformed = Pace::new(f64::from(self.arguments.malformed), start);
+        let mut flood = talk::flood_pace(self.arguments.floods, start);
         let end = start + (self.arguments.seconds * 1e6) as u64;
         while self.now() < end {
             let now = self.now();
@@ -134,6 +133,7 @@ impl Fleet {
                     self.open_hostile(Kind::Malformed { greets, bytes }, now + MALFORMED_LIFE);
                 }
             }
+            self.flood(flood.due(now));
             self.drop_due(now);
             self.turn()?;
         }
@@ -146,12 +146,13 @@ impl Fleet {
 
     /// Opens all that are to stay, no faster than asked for, and waits until their streams have begun.
     fn join(&mut self) -> Result<(), String> {
-        let Arguments { spectators, bots, stalled, step_one_in, seed, raw, .. } = self.arguments;
+        let Arguments { spectators, bots, stalled, floods, step_one_in, seed, raw, .. } = self.arguments;
         let mut kinds = Vec::new();
         kinds.extend((!raw).then_some(Kind::Probe));
         kinds.extend((0..bots).map(|n| Kind::Bot { number: n + 1, seed: seed.wrapping_add(u64::from(n)) }));
         kinds.extend((0..spectators).map(|n| Kind::Spectator { number: n + 1, steps: n % step_one_in == 0 }));
         kinds.extend((0..stalled).map(|_| Kind::Stalled));
+        kinds.extend((0..floods).map(|_| Kind::Flood));
         let all = kinds.len() as u64;
         let mut pace = Pace::new(f64::from(self.arguments.joins), self.now());
         let mut kinds = kinds.into_iter().peekable();
@@ -257,7 +258,7 @@ impl Fleet {
                 self.joining += 1;
                 self.open(Kind::Stalled);
             }
-            Kind::Spectator { .. } | Kind::Bot { .. } | Kind::Probe | Kind::Stalled => {
+            Kind::Spectator { .. } | Kind::Bot { .. } | Kind::Probe | Kind::Stalled | Kind::Flood => {
                 if connection.stage == Stage::Begun {
                     self.begun -= 1;
                 } else {
@@ -280,6 +281,7 @@ impl Fleet {
     /// Begins to open a connection; returns its place.
     fn open(&mut self, kind: Kind) -> Option<usize> {
         let is_quick = matches!(kind, Kind::Probe | Kind::Bot { .. });
+        let floods = matches!(kind, Kind::Flood);
         let stays = is_awaited(&kind);
         self.serial += 1;
         let place = self.free.pop().unwrap_or_else(|| {
@@ -296,6 +298,9 @@ impl Fleet {
                 self.connections[place] = Some(connection);
                 if is_quick {
                     self.quick.push(place);
+                }
+                if floods {
+                    self.floods.push(place);
                 }
                 Some(place)
             }
@@ -342,42 +347,11 @@ impl Fleet {
         let connection = self.connections.get_mut(place)?.take()?;
         self.free.push(place);
         self.quick.retain(|&other| other != place);
+        self.floods.retain(|&other| other != place);
         if matches!(connection.kind, Kind::Malformed { .. }) {
             self.malformed_open -= 1;
         }
         Some(connection)
-    }
-
-    /// Everybody pings now and then: spectators in turn, one after the other.
-    fn ping_due(&mut self) {
-        if self.shared.raw {
-            return;
-        }
-        let now = self.now();
-        let mut due: Vec<usize> = Vec::new();
-        let [spectators, bots, probe] = &mut self.ping_pace;
-        spectators.set_rate(self.connections.len() as f64 / PING_SECONDS);
-        for _ in 0..spectators.due(now) {
-            self.pinged = (self.pinged + 1) % self.connections.len().max(1);
-            due.push(self.pinged);
-        }
-        let (bots, probe) = (bots.due(now) > 0, probe.due(now) > 0);
-        due.extend(self.quick.iter().filter(|&&place| match &self.connections[place] {
-            Some(Connection { kind: Kind::Bot { .. }, .. }) => bots,
-            Some(_) => probe,
-            None => false,
-        }));
-        for place in due {
-            let Some(Some(connection)) = self.connections.get_mut(place) else { continue };
-            if !matches!(connection.stage, Stage::In | Stage::Begun) || !is_awaited(&connection.kind) {
-                continue;
-            }
-            // Whoever asks for the time writes down when; others have no use for that.
-            let nonce = if matches!(connection.kind, Kind::Bot { .. } | Kind::Probe) { now } else { 0 };
-            if let Err(end) = connection.send(&framed(&encode(&ClientMessage::Ping { nonce }))) {
-                self.end(place, end);
-            }
-        }
     }
 
     /// Microseconds since the beginning.
@@ -388,5 +362,5 @@ impl Fleet {
 
 /// Whether the start waits for it.
 fn is_awaited(kind: &Kind) -> bool {
-    kind.stays() || matches!(kind, Kind::Stalled)
+    kind.stays() || matches!(kind, Kind::Stalled | Kind::Flood)
 }

@@ -2,7 +2,7 @@
 
 use shared::game::Action;
 use shared::math::Rng;
-use shared::protocol::{ClientMessage, Hello, Role, Stream, encode, encode_greeting, framed};
+use shared::protocol::{ClientMessage, Form, Hello, Role, Stream, encode, encode_greeting, framed};
 
 /// Makes so many things a second due.
 #[derive(Debug, Clone, Copy)]
@@ -36,6 +36,18 @@ impl Pace {
 /// The greeting of a client.
 pub(crate) fn hello(name: &str, role: Role, stream: Stream) -> Vec<u8> {
     framed(&encode_greeting(&Hello { name: name.to_owned(), role, stream }))
+}
+
+/// The `number`th of the messages that are valid and costly.
+pub(crate) fn costly(number: u64) -> ClientMessage {
+    match number % 6 {
+        0 => ClientMessage::Stream(Stream { form: Form::State, hz: if number.is_multiple_of(4) { 30 } else { 60 } }),
+        1 => ClientMessage::Differs { tick: number, digest: 0 },
+        2 => ClientMessage::Play,
+        3 => ClientMessage::Leave,
+        4 => ClientMessage::Vote { action: (number / 6 % 5) as u8 },
+        _ => ClientMessage::Ping { nonce: number },
+    }
 }
 
 /// Bytes that no server may take for a message, whether they come first or later.

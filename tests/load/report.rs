@@ -34,6 +34,8 @@ pub(crate) struct Counts {
     pub(crate) malformed_not_ended: u64,
     /// Connections that stalled and that the server ended. They are opened again.
     pub(crate) stalled_ended: u64,
+    /// Messages that were valid and costly.
+    pub(crate) flooded: u64,
     /// Hostile connections that could not be opened.
     pub(crate) not_opened: u64,
     /// Connections, of all kinds, that were refused.
@@ -76,6 +78,7 @@ pub(crate) struct Report {
     malformed_sent: u64,
     malformed_not_ended: u64,
     stalled_ended: u64,
+    flooded: u64,
     not_opened: u64,
     /// Of one core, what this process took: near 1 it is the load that is late.
     load_cpu: f64,
@@ -158,6 +161,7 @@ impl Report {
             malformed_sent: counts.malformed_sent,
             malformed_not_ended: counts.malformed_not_ended,
             stalled_ended: counts.stalled_ended,
+            flooded: counts.flooded,
             not_opened: counts.not_opened,
             load_cpu: rounded(ratio(load_cpu, seconds)),
             process,

@@ -3,6 +3,7 @@
 use shared::protocol::{ClientMessage, Form};
 
 use super::Session;
+use crate::budget::Budget;
 use crate::controls::Controls;
 use crate::prediction::{Prediction, Verdict};
 
@@ -45,21 +46,24 @@ impl Session {
         // 3. Everything else, a little late.
         self.show_late(now, live, turn.map(|(board, _)| board));
         self.update_contest();
+        // 4. What comes until the next picture counts as part of that.
+        self.budget = Budget::of_picture(self.table.scene.tick_seconds, self.boards.len());
     }
 
     /// What was sent is kept, for boards that are seen late while the copies are as new as can be.
     pub(super) fn keep_what_was_sent(&mut self) {
         let every = (KEEP_EVERY / self.table.scene.tick_seconds).max(1.0) as u64;
-        let Self { feed, boards, .. } = self;
+        let Self { feed, boards, budget, .. } = self;
         loop {
-            let mut events = Vec::new();
+            let (mut events, before) = (Vec::new(), feed.tick());
             // Also where the copies are there already: digests are compared.
-            let next = if feed.form() == Form::Inputs { feed.tick() + every } else { u64::MAX };
-            feed.advance(next, |board, event| events.push((board, *event)));
+            let next = if feed.form() == Form::Inputs { before + every } else { u64::MAX };
+            feed.advance(next, budget, |board, event| events.push((board, *event)));
             for (place, (board, game)) in (0..).zip(boards.iter_mut().zip(feed.games())) {
                 board.push(game, events.iter().filter(|(of, _)| *of == place).map(|(_, event)| *event));
             }
-            if feed.tick() >= feed.confirmed() || feed.is_lost() {
+            // Where the budget is spent, the next picture goes on.
+            if feed.tick() >= feed.confirmed() || feed.is_lost() || feed.tick() == before {
                 return;
             }
         }
@@ -82,7 +86,7 @@ impl Session {
         let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD / dt);
         let prediction = match &mut self.prediction {
             Some(prediction) if prediction.seat() == seat && (prediction.tick() as f64) < target + MOST_EXCESS / dt => {
-                match prediction.confirm(newest) {
+                match prediction.confirm(newest, &mut self.budget) {
                     Some(Verdict::Right) => self.counts.right += 1,
                     Some(Verdict::Wrong) => self.counts.wrong += 1,
                     Some(Verdict::Unknown) | None => {}
@@ -97,7 +101,8 @@ impl Session {
             let tick = prediction.act(tick, action);
             self.outbox.push(ClientMessage::Act { tick, action });
         });
-        prediction.advance(target.max(0.0) as u64, |event| board.note(event, &self.table, loose, now));
+        let target_tick = target.max(0.0) as u64;
+        prediction.advance(target_tick, &mut self.budget, |event| board.note(event, &self.table, loose, now));
         board.seen_until(prediction.tick());
         board.shown = target.max(prediction.tick() as f64);
         self.counts.lead = lead;
@@ -118,7 +123,7 @@ impl Session {
         let newest = if is_stepped { self.feed.confirmed() as f64 } else { f64::INFINITY };
         let target = (live - delay).min(newest);
         let loose: Vec<usize> = (0..self.boards.len()).map(|board| self.loose_balls(board)).collect();
-        let Self { feed, boards, table, .. } = self;
+        let Self { feed, boards, table, budget, .. } = self;
         for (place, (board, &loose)) in boards.iter_mut().zip(&loose).enumerate() {
             if Some(place) == predicted {
                 continue;
@@ -129,7 +134,7 @@ impl Session {
             }
         }
         if is_stepped {
-            feed.advance(target.max(0.0) as u64, |place, event| {
+            feed.advance(target.max(0.0) as u64, budget, |place, event| {
                 let place = usize::from(place);
                 if let (Some(board), Some(&loose)) = (boards.get_mut(place), loose.get(place)) {
                     board.note(event, table, loose, now);

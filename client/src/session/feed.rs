@@ -11,6 +11,12 @@ use shared::protocol::{
 };
 use shared::table::Table;
 
+use crate::budget::Budget;
+
+/// Seconds of the game by which the copies may be behind what is known. Beyond that they jump to the next full snapshot: the
+/// window was hidden for a while, or this machine is too slow for the table.
+const MOST_BEHIND: f64 = 5.0;
+
 /// How far the way to another stream has come.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Switch {
@@ -26,6 +32,8 @@ enum Switch {
 #[derive(Debug)]
 pub(super) struct Feed {
     follower: Follower,
+    /// [`MOST_BEHIND`] in ticks.
+    most_behind: u64,
     /// What was asked for last.
     stream: Stream,
     switch: Switch,
@@ -43,6 +51,8 @@ impl Feed {
     /// Waits for the first full snapshot of `stream`.
     pub(super) fn new(table: Arc<Table>, stream: Stream) -> Self {
         Self {
+            // A cast saturates.
+            most_behind: (MOST_BEHIND / table.scene.tick_seconds) as u64,
             follower: Follower::new(table),
             stream,
             switch: Switch::Begun,
@@ -110,7 +120,8 @@ impl Feed {
     pub(super) fn hear_full(&mut self, full: &Full) -> Result<Heard, FollowError> {
         // In one stream nothing goes back: an older one is the beginning of another stream.
         let is_older = full.tick().is_some_and(|tick| tick < self.confirmed());
-        if self.is_switching() || is_older {
+        let is_far_behind = self.confirmed().saturating_sub(self.tick()) > self.most_behind;
+        if self.is_switching() || is_older || is_far_behind {
             self.follower.expect_full();
         }
         let heard = self.follower.hear_full(full)?;
@@ -142,10 +153,18 @@ impl Feed {
         Ok(self.note(Form::Inputs, heard))
     }
 
-    /// Steps the copies to `tick`, at most as far as everything is known.
-    pub(super) fn advance(&mut self, tick: u64, show: impl FnMut(u8, &GameEvent)) {
-        if let Err(mismatch) = self.follower.advance(tick, show) {
-            self.differ(mismatch);
+    /// Steps the copies to `tick`, at most as far as everything is known and the budget lasts.
+    pub(super) fn advance(&mut self, tick: u64, budget: &mut Budget, mut show: impl FnMut(u8, &GameEvent)) {
+        loop {
+            let before = self.tick();
+            let goes_on = before < tick.min(self.confirmed()) && budget.take();
+            // Also where they are there already: digests are compared.
+            if let Err(mismatch) = self.follower.advance(before + u64::from(goes_on), &mut show) {
+                return self.differ(mismatch);
+            }
+            if !goes_on || self.is_lost() {
+                return;
+            }
         }
     }
 

@@ -94,6 +94,15 @@ impl Room {
 
     /// A millisecond of the server, and every sixtieth of a second a frame of the client.
     fn step(&mut self) {
+        self.step_unseen();
+        if STATE.is_due(self.games[0].tick(), DT) {
+            self.session.advance(self.now(), &mut self.controls);
+            self.answer();
+        }
+    }
+
+    /// A millisecond of the server, and nothing is drawn.
+    fn step_unseen(&mut self) {
         for (board, (game, bot)) in (0..).zip(self.games.iter_mut().zip(&mut self.bots)) {
             let tick = game.tick();
             let mut inputs = Vec::new();
@@ -113,10 +122,6 @@ impl Room {
         while self.on_the_way.front().is_some_and(|(arrival, _)| *arrival <= now) {
             let (at, message) = self.on_the_way.pop_front().unwrap();
             self.session.hear(at, message).unwrap();
-        }
-        if STATE.is_due(tick, DT) {
-            self.session.advance(now, &mut self.controls);
-            self.answer();
         }
     }
 
@@ -299,4 +304,44 @@ fn the_crowd_votes_where_it_plays_and_sees_its_vote_until_it_is_counted() {
     room.run(3.0);
     room.session.vote(1);
     assert_eq!((votes(&room), room.session.voted()), (0, None));
+}
+
+#[test]
+fn a_server_that_tells_more_time_than_passes_holds_up_no_picture() {
+    for (choice, place) in [(None, None), (Some(Form::Inputs), Some(0))] {
+        let choice = StreamChoice { form: choice, hz: None };
+        let mut room = Room::new(Mode::Challenge, 1, choice, Role::Watch);
+        room.run(2.0);
+        room.session.hear(room.now(), ServerMessage::You { client: 1, place, line: None }).unwrap();
+        room.run(1.0);
+        let mut from = room.session.feed.confirmed();
+        for _ in 0..256 {
+            let (to, digest, inputs) = (from + 2000, None, Vec::new());
+            room.session.hear(room.now(), ServerMessage::Inputs(Inputs { from, to, digest, inputs })).unwrap();
+            from = to;
+        }
+        for picture in 0..10 {
+            let before = room.session.feed.tick();
+            room.session.advance(room.now() + f64::from(picture) / 60.0, &mut room.controls);
+            assert!(room.session.feed.tick() - before <= 250, "{place:?}: picture {picture}");
+        }
+        assert!(room.session.feed.confirmed() > 512_000);
+    }
+}
+
+#[test]
+fn after_a_while_in_which_nothing_was_drawn_the_next_full_snapshot_is_where_it_goes_on() {
+    let mut room = Room::new(Mode::Challenge, 1, StreamChoice::default(), Role::Watch);
+    room.run(2.0);
+    // Frames come in, and nobody looks.
+    let end = room.now() + 8.0;
+    while room.now() < end {
+        room.step_unseen();
+    }
+    assert!(room.session.feed.tick() as f64 * DT < 2.1);
+    let full = ServerMessage::Full(Box::new(Full::of("test", &room.games)));
+    room.send(full);
+    room.run(1.0);
+    assert!(room.now() - room.session.feed.tick() as f64 * DT < 0.2);
+    assert_eq!((room.session.counts().mismatches, room.asks()), (0, 0));
 }

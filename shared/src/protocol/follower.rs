@@ -20,6 +20,8 @@ use crate::table::Table;
 
 /// Seconds that one frame may tell: a server that stalls gives time up.
 const MOST_SPAN_SECONDS: f64 = 2.0;
+/// Ticks are exact as f64 up to here: 285,000 years of milliseconds.
+const LAST_TICK: u64 = 1 << 53;
 /// Inputs and digests that may wait to be stepped through. A receiver that falls further behind jumps.
 const MOST_WAITING: usize = 8192;
 
@@ -63,6 +65,12 @@ pub enum FollowError {
     /// One frame tells more time than any server would.
     #[error("the server sent a frame that tells {0} ticks at once")]
     Span(u64),
+    /// A frame that ends before it begins.
+    #[error("the server sent a frame that ends before it begins")]
+    Backwards,
+    /// No room runs that long.
+    #[error("the server sent tick {0}; rooms end before {LAST_TICK}")]
+    Tick(u64),
     /// An input on a board that there is none of.
     #[error("the server sent an input on board {0}, which there is none of")]
     Board(u8),
@@ -132,6 +140,7 @@ impl Follower {
     /// If it does not fit the table.
     pub fn hear_full(&mut self, full: &Full) -> Result<Heard, FollowError> {
         let tick = full.tick().ok_or(FollowError::Boards)?;
+        check_tick(tick)?;
         let says = (full.protocol, full.physics, full.table_digest);
         if says != (VERSION, PHYSICS_VERSION, self.table.digest) {
             return Err(FollowError::Foreign);
@@ -170,6 +179,7 @@ impl Follower {
         if change.from != self.boards.tick() {
             return Ok(Err(self.gap()));
         }
+        check_tick(change.to)?;
         let states = self.boards.apply(change)?;
         if change.to <= self.confirmed {
             return Ok(Ok(Heard::Nothing));
@@ -189,7 +199,8 @@ impl Follower {
     /// # Errors
     /// If no server would send it.
     pub fn hear_inputs(&mut self, inputs: &Inputs) -> Result<Result<Heard, Mismatch>, FollowError> {
-        let span = inputs.to - inputs.from;
+        let span = inputs.to.checked_sub(inputs.from).ok_or(FollowError::Backwards)?;
+        check_tick(inputs.to)?;
         if span as f64 * self.table.scene.tick_seconds > MOST_SPAN_SECONDS {
             return Err(FollowError::Span(span));
         }
@@ -258,6 +269,10 @@ impl Follower {
         self.waits = true;
         Mismatch { tick: self.confirmed, ours: 0, theirs: 0 }
     }
+}
+
+fn check_tick(tick: u64) -> Result<(), FollowError> {
+    if tick < LAST_TICK { Ok(()) } else { Err(FollowError::Tick(tick)) }
 }
 
 #[cfg(test)]
@@ -436,6 +451,13 @@ mod tests {
         follower.hear_full(&full).unwrap();
         let forever = Inputs { from: 0, to: 1 << 40, digest: None, inputs: Vec::new() };
         assert_eq!(follower.hear_inputs(&forever), Err(FollowError::Span(1 << 40)));
+        let backwards = Inputs { from: 9, to: 8, digest: None, inputs: Vec::new() };
+        assert_eq!(follower.hear_inputs(&backwards), Err(FollowError::Backwards));
+        let last = Inputs { from: u64::MAX - 9, to: u64::MAX, digest: None, inputs: Vec::new() };
+        assert_eq!(follower.hear_inputs(&last), Err(FollowError::Tick(u64::MAX)));
+        let mut late = full.clone();
+        late.boards.iter_mut().for_each(|state| state.world.tick = u64::MAX);
+        assert_eq!(follower.hear_full(&late), Err(FollowError::Tick(u64::MAX)));
         let input = Input { tick: 3, seat: 0, action: Action::Sit };
         let stray = Inputs { from: 0, to: 9, digest: None, inputs: vec![BoardInput { board: 2, input }] };
         assert_eq!(follower.hear_inputs(&stray), Err(FollowError::Board(2)));
