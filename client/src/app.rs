@@ -232,7 +232,8 @@ impl App {
                 (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
                 (Wish::Vote(action), State::Live(_, session)) => session.vote(action),
                 (Wish::Look(further), State::Live(_, session)) => session.look(further),
-                (Wish::Vote(_) | Wish::Look(_), _) => {}
+                (Wish::Pause, State::Live(_, session)) => session.pause(!session.is_paused()),
+                (Wish::Vote(_) | Wish::Look(_) | Wish::Pause, _) => {}
             }
         }
         true

@@ -135,6 +135,17 @@ impl Controls {
         }
     }
 
+    /// Nothing can be done in this frame, as the game stands still: of what the hands do meanwhile, what they hold in the end
+    /// counts.
+    pub(crate) fn wait(&mut self) {
+        self.nudges.clear();
+        let Self { buttons, changes, .. } = self;
+        let held = |part: Part| buttons[part as usize].keys != 0;
+        changes.clear();
+        changes
+            .extend(PARTS.into_iter().filter(|&part| held(part) != buttons[part as usize].told).map(|p| (p, held(p))));
+    }
+
     /// What to do at which tick, in a frame at `now` seconds, in which inputs can act from `tick` on. Only who has the
     /// turn (`active`) does anything; what is held when the turn begins acts from then on.
     pub(crate) fn frame(&mut self, now: f64, tick: u64, active: bool, mut act: impl FnMut(u64, Action)) {
@@ -245,6 +256,24 @@ mod tests {
         assert_eq!(frame(&mut controls, 1.0, 100), [(100, LEFT), (100, RIGHT)]);
         controls.key_up(KeyCode::LeftShift);
         assert_eq!(frame(&mut controls, 1.1, 200), [(200, LEFT_UP)]);
+    }
+
+    #[test]
+    fn of_what_is_pressed_in_a_pause_the_end_counts() {
+        let mut controls = active();
+        controls.key_down(KeyCode::LeftShift);
+        controls.key_down(KeyCode::Space);
+        assert_eq!(frame(&mut controls, 1.0, 100).len(), 2);
+        controls.key_up(KeyCode::LeftShift);
+        for _ in 0..3 {
+            controls.key_down(KeyCode::Q);
+            controls.key_down(KeyCode::RightShift);
+            controls.wait();
+            controls.key_up(KeyCode::RightShift);
+            controls.wait();
+        }
+        // The plunger was held all the time, and the game's time stood still.
+        assert_eq!(frame(&mut controls, 1.0, 101), [(101, LEFT_UP)]);
     }
 
     #[test]

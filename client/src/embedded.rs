@@ -44,10 +44,11 @@ impl Embedded {
             let _within = runtime.enter();
             tokio::net::TcpListener::from_std(listener)?
         };
+        let config = Config { pause: true, ..Config::new(table) };
         let thread = std::thread::Builder::new().name("server".to_owned()).spawn(move || {
             // Told to stop, or dropped without a word: the same.
             let shutdown = async { drop(stopped.await) };
-            runtime.block_on(starball_server::run(listener, Config::new(table), shutdown))
+            runtime.block_on(starball_server::run(listener, config, shutdown))
         })?;
         Ok(Self { address, stop: Some(stop), thread: Some(thread) })
     }

@@ -13,6 +13,8 @@ pub(crate) enum Wish {
     Go,
     /// Escape: leave the seat, or the game.
     Back,
+    /// P: let the game stand still, or go on.
+    Pause,
     /// F11.
     FullScreen,
     /// F3.
@@ -74,6 +76,7 @@ impl<W: FnMut(Wish)> EventHandler for Sorter<'_, W> {
         match key {
             KeyCode::Enter | KeyCode::KpEnter => (self.wish)(Wish::Go),
             KeyCode::Escape => (self.wish)(Wish::Back),
+            KeyCode::P | KeyCode::Pause => (self.wish)(Wish::Pause),
             KeyCode::F11 => (self.wish)(Wish::FullScreen),
             KeyCode::F3 => (self.wish)(Wish::Statistics),
             KeyCode::F4 => (self.wish)(Wish::Overlay),

@@ -70,6 +70,9 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
     let Some(moment) = session.moment(main) else {
         return Words { message: "WELCOME".to_owned(), ..connecting("") };
     };
+    if session.is_paused() {
+        return paused(session.can_pause());
+    }
     let standing = Standing::of(session, &moment);
     let (banner, sub_banner) = standing.banner(now);
     let message = match session.effects(main).and_then(|effects| effects.message(now)) {
@@ -81,6 +84,9 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
         None => standing.message(),
     };
     let mut keys = standing.keys(session.table().file.cabinet.is_some());
+    if session.can_pause() && session.is_playing() {
+        keys.insert(keys.len() - 1, ("P".to_owned(), "PAUSE".to_owned()));
+    }
     if session.place().is_none() {
         let more = more_keys(session);
         // What can be done about the game comes first, the way out last.
@@ -88,6 +94,17 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
         keys.splice(place..place, more);
     }
     Words { message, keys, banner, sub_banner }
+}
+
+/// While the room stands still. `can_go_on`: the person can change that.
+fn paused(can_go_on: bool) -> Words {
+    let go_on: &[_] = if can_go_on { &[("P", "GO ON")] } else { &[] };
+    Words {
+        message: "PAUSED".to_owned(),
+        keys: keys(&[go_on, &[("ESC", "LEAVE")]].concat()),
+        banner: "PAUSED".to_owned(),
+        sub_banner: if can_go_on { "P: GO ON".to_owned() } else { String::new() },
+    }
 }
 
 /// What who has no place can do besides.

@@ -9,6 +9,7 @@ mod board;
 mod contest;
 mod error;
 mod feed;
+mod pause;
 mod pings;
 #[cfg(test)]
 mod simulated;
@@ -31,10 +32,8 @@ use contest::Contest;
 pub(crate) use contest::{Contestant, Outcome};
 pub(crate) use error::SessionError;
 use feed::Feed;
+use pause::GameTime;
 use pings::Pings;
-
-/// Seconds without a frame after which the person at the window is told.
-const SILENCE: f64 = 1.0;
 
 /// What was counted, for the end.
 #[derive(Debug, Clone, Copy, Default)]
@@ -85,6 +84,7 @@ pub(crate) struct Session {
     places: u8,
     choice: StreamChoice,
     feed: Feed,
+    time: GameTime,
     clock: ServerClock,
     delay: Delay,
     truth: TrueClock,
@@ -139,6 +139,7 @@ impl Session {
             places: welcome.places,
             feed: Feed::new(Arc::clone(&table), choice.stream(role)),
             choice,
+            time: GameTime::default(),
             clock: ServerClock::new(tick_seconds),
             delay: Delay::default(),
             truth: TrueClock::new(tick_seconds),
@@ -199,9 +200,10 @@ impl Session {
             ServerMessage::Pong { nonce, tick } => {
                 if let Some(trip) = self.pings.answered(nonce, at) {
                     self.lead.measured(trip);
-                    self.truth.answered(tick, at, trip);
+                    self.truth.answered(tick, self.time.at(at), trip);
                 }
             }
+            ServerMessage::Paused(stands_still) => self.hear_pause(at, stands_still),
             ServerMessage::Bye { reason } => return Err(SessionError::Bye(reason)),
             ServerMessage::Welcome(_) | ServerMessage::Refused { .. } => return Err(SessionError::Greeting),
         }
@@ -219,6 +221,7 @@ impl Session {
         }
         // When a full snapshot comes says little: the first one of a stream may be as old as a frame.
         if let (Heard::Further, Some(tick)) = (heard, to) {
+            let at = self.time.at(at);
             self.delay.arrived(at, self.clock.arrived(tick, at));
         }
         if !self.is_stepped() {
@@ -293,11 +296,6 @@ impl Session {
             return Some(Moment::of(game, (shown - game.tick() as f64).clamp(0.0, 1.0)));
         }
         snapshots.at(*shown)
-    }
-
-    /// Whether the server has said nothing for a while.
-    pub(crate) fn is_silent(&self, now: f64) -> bool {
-        now - self.heard_at > SILENCE
     }
 
     /// The table that is played.

@@ -62,6 +62,8 @@ pub(crate) enum NewsKind {
     Roster,
     /// What the crowd votes for.
     Tally,
+    /// Whether the room stands still. Players' clocks stop with it, so whoever is served at once is told at once.
+    Pause,
 }
 
 /// Where orders go.
@@ -177,7 +179,15 @@ impl Broadcast {
                 }
             }
             Order::News { kind, frame } => {
-                self.feeds.values_mut().for_each(|feed| feed.push_news(frame.clone()));
+                let terms = terms(&self.news, self.patience, &self.next_wake);
+                for feed in self.feeds.values_mut() {
+                    feed.push_news(frame.clone());
+                    if kind == NewsKind::Pause {
+                        for client in feed.serve_prompt(&terms) {
+                            self.whereabouts.remove(&client);
+                        }
+                    }
+                }
                 self.news.insert(kind, frame);
             }
             Order::Add { client, transport, stream, greeting, ended } => {

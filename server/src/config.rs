@@ -20,6 +20,8 @@ pub struct Config {
     pub places: usize,
     /// The bot plays while nobody else does, and against whoever is alone in a room with a board for each.
     pub attract: bool,
+    /// Players may let the room stand still, for everybody: for a table of one's own.
+    pub pause: bool,
     /// What the bot's habits follow from.
     pub seed: u64,
     /// Most clients at once.
@@ -55,6 +57,7 @@ impl Config {
             mode: Mode::Challenge,
             places: SEATS,
             attract: true,
+            pause: false,
             seed: 1,
             most_connections: 256,
             most_per_address: 64,

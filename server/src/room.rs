@@ -6,6 +6,7 @@
 mod clients;
 mod controls;
 mod hands;
+mod pause;
 mod turns;
 mod wishes;
 
@@ -17,7 +18,7 @@ use std::time::{Duration, Instant};
 
 use bytes::Bytes;
 use shared::game::{Game, GameEventKind, Input, Phase, Rescue, SEATS};
-use shared::protocol::{BoardEvent, Mode, ServerMessage};
+use shared::protocol::{BoardEvent, ClientMessage, Mode, ServerMessage};
 
 use crate::account::Account;
 use crate::broadcast::{NewsKind, Order, Orders};
@@ -86,6 +87,8 @@ pub(crate) struct Room {
     next_game_in: u64,
     /// How the last game ended, while that stands.
     result: Option<Outcome>,
+    /// Who let the room stand still, while it does.
+    paused_by: Option<u32>,
     next_roster: u64,
     next_moved: u64,
     next_tally: u64,
@@ -116,6 +119,7 @@ impl Room {
             idle_ticks: 0,
             next_game_in: 0,
             result: None,
+            paused_by: None,
             next_roster: 0,
             next_moved: 0,
             next_tally: 0,
@@ -128,6 +132,9 @@ impl Room {
 
     /// Runs until it is told to stop; says goodbye to everybody.
     pub(crate) fn run(mut self, heard: &Heard, next_wake: &NextWake) -> Account {
+        if self.config.pause {
+            self.tell_pause();
+        }
         let begin = Instant::now();
         let mut pacer = Pacer::new(1.0 / self.tick_seconds(), Duration::ZERO);
         let mut wake = WAKE_EVERY;
@@ -136,7 +143,13 @@ impl Room {
             next_wake.sleep_until(begin + wake);
             match heard.queue.recv_timeout(wake.saturating_sub(now)) {
                 Ok(Command::Stop) | Err(RecvTimeoutError::Disconnected) => break,
-                Ok(command) => self.handle(command),
+                Ok(command) => {
+                    if matches!(command, Command::Message { message: ClientMessage::Pause(_), .. }) {
+                        // A pause begins and ends when it is heard, not at the next wake.
+                        self.pass(pacer.due(begin.elapsed()));
+                    }
+                    self.handle(command);
+                }
                 Err(RecvTimeoutError::Timeout) => {}
             }
             next_wake.wake();
@@ -145,14 +158,7 @@ impl Room {
                 continue;
             }
             wake = self.account.lateness.note_due(wake, now, WAKE_EVERY);
-            let due = pacer.due(now);
-            self.account.ticks_skipped += due.skipped;
-            if due.skipped > 0 {
-                tracing::warn!("the machine stalled: {} ticks given up", due.skipped);
-            }
-            for _ in 0..due.ticks {
-                self.tick();
-            }
+            self.pass(pacer.due(now));
         }
         self.order(Order::End { last: goodbye("the server ends".to_owned()) });
         self.account

@@ -21,15 +21,17 @@ pub enum SessionState {
 /// | `Act` with anything else | no | no | no |
 /// | `Vote`, where the crowd plays | yes | yes | yes, without effect |
 /// | `Vote`, elsewhere | no | no | no |
+/// | `Pause`, where the host allows it | only if it had a place | only if it had a place | yes |
+/// | `Pause`, elsewhere | no | no | no |
 /// | `Stream` that there is | yes | yes | yes |
 /// | `Play`, `Leave`, `Ping`, `Differs` | yes | yes | yes |
 ///
-/// A client that had a place may not have heard yet that it lost it: its controls are legal and have no effect.
-pub fn is_legal(mode: Mode, state: SessionState, had_place: bool, message: &ClientMessage) -> bool {
+/// A client that had a place may not have heard yet that it lost it: its controls and pauses are legal and have no effect.
+pub fn is_legal(mode: Mode, can_pause: bool, state: SessionState, had_place: bool, message: &ClientMessage) -> bool {
+    let had_place = had_place || matches!(state, SessionState::Seated(_));
     match message {
-        ClientMessage::Act { action, .. } => {
-            (had_place || matches!(state, SessionState::Seated(_))) && action.is_control()
-        }
+        ClientMessage::Act { action, .. } => had_place && action.is_control(),
+        ClientMessage::Pause(_) => had_place && can_pause,
         ClientMessage::Vote { .. } => mode == Mode::Crowd,
         ClientMessage::Stream(stream) => stream.check().is_ok(),
         ClientMessage::Play | ClientMessage::Leave | ClientMessage::Ping { .. } | ClientMessage::Differs { .. } => true,
@@ -45,7 +47,7 @@ mod tests {
     const STATES: [SessionState; 3] = [SessionState::Watching, SessionState::InLine, SessionState::Seated(0)];
 
     fn legal(mode: Mode, had_place: bool, message: &ClientMessage) -> [bool; 3] {
-        STATES.map(|state| is_legal(mode, state, had_place, message))
+        STATES.map(|state| is_legal(mode, false, state, had_place, message))
     }
 
     #[test]
@@ -62,6 +64,12 @@ mod tests {
         assert_eq!(legal(Mode::HeadToHead, false, &vote), [false; 3]);
         assert_eq!(legal(Mode::Challenge, false, &stream(60)), [true; 3]);
         assert_eq!(legal(Mode::Challenge, false, &stream(61)), [false; 3]);
+        for pause in [true, false] {
+            let pause = ClientMessage::Pause(pause);
+            let allowed = |had| STATES.map(|state| is_legal(Mode::Challenge, true, state, had, &pause));
+            assert_eq!((allowed(false), allowed(true)), ([false, false, true], [true; 3]));
+            assert_eq!(legal(Mode::Challenge, true, &pause), [false; 3]);
+        }
         let others = [
             ClientMessage::Play,
             ClientMessage::Leave,

@@ -63,6 +63,7 @@ pub fn messages() -> Vec<Vec<u8>> {
         ClientMessage::Stream(Stream::PLAYER),
         ClientMessage::Differs { tick: 70_000, digest: u64::MAX },
         ClientMessage::Vote { action: 1 },
+        ClientMessage::Pause(true),
     ];
     let mut places = <[Option<String>; SEATS]>::default();
     places[1] = Some("a".to_owned());
@@ -73,6 +74,7 @@ pub fn messages() -> Vec<Vec<u8>> {
         ServerMessage::You { client: 70_000, place: Some(1), line: Some(2) },
         ServerMessage::Pong { nonce: 1, tick: 2 },
         ServerMessage::Bye { reason: "end".to_owned() },
+        ServerMessage::Paused(false),
     ];
     let mut messages = acts.to_vec();
     messages.extend(others.iter().map(encode));

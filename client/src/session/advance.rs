@@ -27,12 +27,14 @@ impl Session {
     /// Brings the picture to local time `now`: pings, plays the player's hands, predicts, lets events be seen.
     pub(crate) fn advance(&mut self, now: f64, controls: &mut Controls) {
         // 1. What is to be said.
-        if let Some(nonce) = self.pings.due(now, self.place.is_some()) {
+        // While the room stands still, answers are all that comes.
+        if let Some(nonce) = self.pings.due(now, self.place.is_some() || self.is_paused()) {
             self.outbox.push(ClientMessage::Ping { nonce });
         }
         self.outbox.extend(self.feed.request(now));
-        let Some(live) = self.clock.tick_at(now) else {
-            return controls.frame(now, 0, false, |_, _| {});
+        let time = self.time.at(now);
+        let Some(live) = self.clock.tick_at(time) else {
+            return controls.frame(time, 0, false, |_, _| {});
         };
         // 2. The board of whoever has the turn, predicted.
         let turn = self.turn();
@@ -40,7 +42,7 @@ impl Session {
             Some((board, seat)) => self.predict(now, live, board, seat, controls),
             None => {
                 self.prediction = None;
-                controls.frame(now, 0, false, |_, _| {});
+                controls.frame(time, 0, false, |_, _| {});
             }
         }
         // 3. Everything else, a little late.
@@ -81,7 +83,8 @@ impl Session {
     fn predict(&mut self, now: f64, live: f64, place: usize, seat: u8, controls: &mut Controls) {
         let dt = self.table.scene.tick_seconds;
         let loose = self.loose_balls(place);
-        let lead = self.lead.at(now, MARGIN, MOST_LEAD) / dt;
+        let (time, is_paused) = (self.time.at(now), self.is_paused());
+        let lead = self.lead.at(time, MARGIN, MOST_LEAD) / dt;
         let (Some(newest), Some(board)) = (self.feed.games().get(place), self.boards.get_mut(place)) else { return };
         let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD / dt);
         let prediction = match &mut self.prediction {
@@ -97,10 +100,14 @@ impl Session {
         };
         // After a frame that took long, its first tick is too early for an input to arrive in time.
         let earliest = (live + lead - (MARGIN - EARLY) / dt).max(0.0).ceil() as u64;
-        controls.frame(now, earliest.max(prediction.tick()), true, |tick, action| {
-            let tick = prediction.act(tick, action);
-            self.outbox.push(ClientMessage::Act { tick, action });
-        });
+        if is_paused {
+            controls.wait();
+        } else {
+            controls.frame(time, earliest.max(prediction.tick()), true, |tick, action| {
+                let tick = prediction.act(tick, action);
+                self.outbox.push(ClientMessage::Act { tick, action });
+            });
+        }
         let target_tick = target.max(0.0) as u64;
         prediction.advance(target_tick, &mut self.budget, |event| board.note(event, &self.table, loose, now));
         board.seen_until(prediction.tick());
@@ -114,7 +121,7 @@ impl Session {
     fn show_late(&mut self, now: f64, live: f64, predicted: Option<usize>) {
         let dt = self.table.scene.tick_seconds;
         let interval = 1.0 / f64::from(self.feed.stream().hz);
-        let delay = self.delay.at(now, interval, self.clock.offset()) / dt;
+        let delay = self.delay.at(self.time.at(now), interval, self.clock.offset()) / dt;
         let is_stepped = self.is_stepped();
         if !is_stepped && self.feed.tick() < self.feed.confirmed() {
             // The person has just got a place.
@@ -153,7 +160,7 @@ impl Session {
         let main = self.main_board();
         let shown = self.boards[main].shown;
         let seen = if self.is_stepped() { shown.min(self.feed.confirmed() as f64) } else { shown };
-        let truth = self.truth.tick_at(now).filter(|_| warm && predicted != Some(main));
+        let truth = self.truth.tick_at(self.time.at(now)).filter(|_| warm && predicted != Some(main));
         self.counts.behind.note(truth.map(|truth| (truth - seen) * self.table.scene.tick_seconds));
     }
 

@@ -6,6 +6,8 @@ use shared::protocol::{BoardInput, Boards, Change, Full, Inputs, REQUEST_SECONDS
 use super::*;
 use crate::controls::Controls;
 
+mod pause;
+
 const DT: f64 = 0.001;
 const STATE: Stream = Stream::PLAYER;
 const INPUTS: Stream = Stream::SPECTATOR;
@@ -31,6 +33,8 @@ struct Room {
     on_the_way: std::collections::VecDeque<(f64, ServerMessage)>,
     /// The next digest that is sent is a wrong one.
     lies: bool,
+    /// Seconds for which it stood still.
+    stood: f64,
 }
 
 impl Room {
@@ -57,13 +61,14 @@ impl Room {
             way: 0.02,
             on_the_way: Default::default(),
             lies: false,
+            stood: 0.0,
         };
         room.begin();
         room
     }
 
     fn now(&self) -> f64 {
-        self.games[0].tick() as f64 * DT
+        self.games[0].tick() as f64 * DT + self.stood
     }
 
     fn send(&mut self, message: ServerMessage) {
@@ -96,8 +101,7 @@ impl Room {
     fn step(&mut self) {
         self.step_unseen();
         if STATE.is_due(self.games[0].tick(), DT) {
-            self.session.advance(self.now(), &mut self.controls);
-            self.answer();
+            self.draw();
         }
     }
 
@@ -118,6 +122,15 @@ impl Room {
             let frame = self.frame();
             self.send(frame);
         }
+        self.deliver();
+    }
+
+    fn draw(&mut self) {
+        self.session.advance(self.now(), &mut self.controls);
+        self.answer();
+    }
+
+    fn deliver(&mut self) {
         let now = self.now();
         while self.on_the_way.front().is_some_and(|(arrival, _)| *arrival <= now) {
             let (at, message) = self.on_the_way.pop_front().unwrap();

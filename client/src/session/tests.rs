@@ -110,6 +110,38 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
 }
 
 #[test]
+fn a_player_stops_the_room_and_goes_on_where_it_was() {
+    let embedded = embedded();
+    let mut client = Client::join(&embedded, Role::Play);
+    assert!(client.run(|session| session.place() == Some(0) && has_ball(session)), "no ball was served");
+    client.controls.key_down(KeyCode::Space);
+    client.run_for(1.1);
+    client.controls.key_up(KeyCode::Space);
+    client.run_for(0.5);
+    let before = client.session.counts();
+    client.session.pause(true);
+    assert!(client.run(Session::is_paused), "the server did not stop");
+    let (tick, shown) = (client.session.newest().unwrap().tick(), client.session.boards[0].shown);
+    client.controls.key_down(KeyCode::LeftShift);
+    client.controls.key_up(KeyCode::LeftShift);
+    client.run_for(1.5);
+    assert!(client.session.is_paused() && !client.session.is_silent(client.epoch.elapsed().as_secs_f64()));
+    // What was under way when it stopped may have come since.
+    let stopped = client.session.newest().unwrap().tick();
+    assert!((tick..tick + 20).contains(&stopped) && client.session.boards[0].shown == shown);
+    client.session.pause(false);
+    assert!(client.run(|session| !session.is_paused() && session.newest().unwrap().tick() > tick + 300));
+    let counts = client.session.counts();
+    assert!(counts.right > before.right + 10 && counts.wrong <= before.wrong + 1, "{before:?} {counts:?}");
+    assert_eq!(counts.mismatches, 0);
+    // Whoever leaves lets it go on.
+    client.session.pause(true);
+    assert!(client.run(Session::is_paused));
+    client.session.leave();
+    assert!(client.run(|session| !session.is_paused() && !session.can_pause()));
+}
+
+#[test]
 fn a_nudge_is_seen_at_once_and_predicted_rightly() {
     let source = &Table::shipped("classic").unwrap().unwrap().source;
     let source = if source.contains("cabinet:") {

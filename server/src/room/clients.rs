@@ -50,7 +50,7 @@ impl Room {
     /// A client said something.
     pub(super) fn hear(&mut self, client: u32, message: ClientMessage) {
         let Some((state, had_place)) = self.lobby.state(client) else { return };
-        if !is_legal(self.config.mode, state, had_place, &message) {
+        if !is_legal(self.config.mode, self.config.pause, state, had_place, &message) {
             return self.expel(client, format!("{message:?} is not for a client that is {state:?}"));
         }
         match message {
@@ -60,12 +60,17 @@ impl Room {
                 }
             }
             ClientMessage::Play => self.wish_place(client, true),
-            ClientMessage::Leave => self.wish_place(client, false),
+            ClientMessage::Leave => {
+                // A wish may have to wait for a tick.
+                self.resume_for(client);
+                self.wish_place(client, false);
+            }
             // Connections answer themselves.
             ClientMessage::Ping { .. } => {}
             ClientMessage::Stream(stream) => self.wish_stream(client, stream),
             ClientMessage::Differs { tick, digest } => self.hear_difference(client, tick, digest),
             ClientMessage::Vote { action } => self.hear_vote(client, state, action),
+            ClientMessage::Pause(stands_still) => self.hear_pause(client, state, stands_still),
         }
     }
 
@@ -104,6 +109,7 @@ impl Room {
             self.streams.unfollow(follower.stream);
         }
         self.votes.withdraw(client);
+        self.resume_for(client);
         let deeds = self.lobby.remove(client, self.view());
         self.perform(&deeds);
     }

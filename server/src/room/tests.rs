@@ -10,6 +10,8 @@ use shared::protocol::{ClientMessage, Form, Hello, Inputs, Role, Roster, Stream,
 use shared::table::{SHIPPED, Table};
 use tokio::sync::{mpsc, oneshot};
 
+mod pause;
+
 /// A room, and what it orders to be sent.
 struct Stage {
     room: Room,

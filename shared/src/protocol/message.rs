@@ -69,6 +69,9 @@ pub enum ClientMessage {
         /// Its place among the table's actions of the crowd.
         action: u8,
     },
+    /// Lets the room stand still, or go on, where players may do that. No tick passes meanwhile, so it is no input of the game: a
+    /// replay knows nothing of it.
+    Pause(bool),
 }
 
 /// How a room is played.
@@ -164,6 +167,8 @@ pub enum ServerMessage {
         /// For a person to read.
         reason: String,
     },
+    /// Whether the room stands still. Only where players may let it: at the beginning, and when it changes.
+    Paused(bool),
     /// What was pressed since the frame before: a frame with a layout of its own.
     #[serde(skip)]
     Inputs(Inputs),

@@ -140,6 +140,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         ClientMessage::Stream(Stream { form: Form::State, hz: 60 }),
         ClientMessage::Differs { tick: 70_000, digest: 3 },
         ClientMessage::Vote { action: 2 },
+        ClientMessage::Pause(true),
     ];
     let welcome = |mode| {
         let (room, table) = ("room".to_owned(), "()".to_owned());
@@ -162,6 +163,7 @@ pub(super) fn sample_frames() -> Vec<Vec<u8>> {
         ServerMessage::You { client: 300, place: Some(1), line: Some(2) },
         ServerMessage::Pong { nonce: 1, tick: 2 },
         ServerMessage::Bye { reason: "end".to_owned() },
+        ServerMessage::Paused(true),
         ServerMessage::Inputs(Inputs { from: 70_000, to: 70_017, digest: Some(5), inputs: inputs.clone() }),
         ServerMessage::Inputs(Inputs { from: 70_000, to: 70_100, digest: None, inputs }),
     ];

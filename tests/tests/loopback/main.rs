@@ -13,6 +13,8 @@ mod limits;
 mod modes;
 /// Nudging: the table moves for everybody, and a fit of nudges tilts the game.
 mod nudge;
+/// A pause, where a host allows it: the room stands still for everybody, and goes on as if nothing had been.
+mod pause;
 /// One player: from the first key to game over.
 mod play;
 /// A relay that does to bytes what networks do.
