@@ -40,12 +40,11 @@ pub(crate) fn hello(name: &str, role: Role, stream: Stream) -> Vec<u8> {
 
 /// The `number`th of the messages that are valid and costly.
 pub(crate) fn costly(number: u64) -> ClientMessage {
-    match number % 6 {
+    match number % 5 {
         0 => ClientMessage::Stream(Stream { form: Form::State, hz: if number.is_multiple_of(4) { 30 } else { 60 } }),
         1 => ClientMessage::Differs { tick: number, digest: 0 },
         2 => ClientMessage::Play,
         3 => ClientMessage::Leave,
-        4 => ClientMessage::Vote { action: (number / 6 % 5) as u8 },
         _ => ClientMessage::Ping { nonce: number },
     }
 }

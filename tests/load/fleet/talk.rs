@@ -12,7 +12,7 @@ const PING_SECONDS: f64 = 5.0;
 const BOT_PINGS: f64 = 4.0;
 const PROBE_PINGS: f64 = 20.0;
 /// Messages a second of a connection that floods: servers end those that send more than 250.
-const FLOOD_RATE: f64 = 240.0;
+const FLOOD_RATE: f64 = 200.0;
 
 /// Of spectators, players, and the connection that asks for the time.
 pub(super) fn ping_paces() -> [Pace; 3] {
