@@ -4,7 +4,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use macroquad::texture::get_screen_data;
-use macroquad::window::set_fullscreen;
+use macroquad::window::{screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use shared::protocol::{Hello, Role};
 use shared::table::Table;
 
@@ -19,6 +19,7 @@ use crate::render::Renderer;
 use crate::report::Report;
 use crate::screens;
 use crate::session::Session;
+use crate::settings::Store;
 use crate::streams::StreamChoice;
 use crate::view::View;
 
@@ -48,6 +49,7 @@ const MOST_HEARD: usize = 256;
 /// The window's program.
 pub(crate) struct App {
     options: Options,
+    store: Store,
     /// All times are seconds since then.
     epoch: Instant,
     state: State,
@@ -60,7 +62,8 @@ pub(crate) struct App {
     /// The last frame: it stays on the screen when the connection is lost.
     view: View,
     limiter: Limiter,
-    is_full_screen: bool,
+    /// The window's size in the last frame.
+    last_size: (f32, f32),
     shows_statistics: bool,
     shows_overlay: bool,
     report: Report,
@@ -68,21 +71,22 @@ pub(crate) struct App {
 
 impl App {
     /// Needs macroquad's window. `backdrop` is drawn until a server has sent its table.
-    pub(crate) fn new(options: Options, backdrop: Arc<Table>) -> Self {
+    pub(crate) fn new(options: Options, store: Store, backdrop: Arc<Table>) -> Self {
         let mut app = Self {
             epoch: Instant::now(),
             state: State::Lost { was_live: false, reason: String::new() },
             embedded: None,
             keyboard: Keyboard::new(),
-            controls: Controls::default(),
+            controls: Controls::new(store.settings.keys.clone()),
             renderer: Renderer::new(&backdrop.file),
             view: View::default(),
             limiter: Limiter::new(options.fps),
-            is_full_screen: false,
+            last_size: (0.0, 0.0),
             shows_statistics: false,
             shows_overlay: options.overlay,
             report: Report::default(),
             table: backdrop,
+            store,
             options,
         };
         app.connect();
@@ -106,6 +110,7 @@ impl App {
         // 5. The picture.
         self.renderer.draw(&self.view);
         self.report.drawn(now);
+        self.note_window();
         let is_pictured = self.take_picture(now);
         if wants_quit || !goes_on || is_pictured {
             return Step::Quit;
@@ -121,6 +126,10 @@ impl App {
             session.leave();
             send(connection, session);
             self.report.add(&session.counts());
+        }
+        // A picture's run is not a player's.
+        if self.options.screenshot.is_none() {
+            self.store.save();
         }
         self.report
     }
@@ -142,7 +151,8 @@ impl App {
             }
         };
         let (role, choice) = self.role();
-        let hello = Hello { name: self.options.name.clone(), role, stream: choice.stream(role) };
+        let name = self.options.name.clone().unwrap_or_else(|| self.store.settings.player());
+        let hello = Hello { name, role, stream: choice.stream(role) };
         match Connection::open(address.clone(), hello, self.epoch) {
             Ok(connection) => self.state = State::Connecting(connection, address),
             Err(error) => self.lose(error.headline(), &error),
@@ -225,8 +235,9 @@ impl App {
                 }
                 (Wish::Back, _) => return false,
                 (Wish::FullScreen, _) => {
-                    self.is_full_screen = !self.is_full_screen;
-                    set_fullscreen(self.is_full_screen);
+                    let is_full = &mut self.store.settings.full_screen;
+                    *is_full = !*is_full;
+                    set_fullscreen(*is_full);
                 }
                 (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
                 (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
@@ -243,7 +254,7 @@ impl App {
     fn assemble(&mut self, now: f64) {
         self.view = match &mut self.state {
             State::Live(_, session) => {
-                let words = screens::live(session, now);
+                let words = screens::live(session, &self.store.settings.keys, now);
                 assemble::view_of(session, words, now, self.shows_overlay)
             }
             State::Connecting(_, address) => assemble::still_view(&self.table, screens::connecting(address), now),
@@ -261,6 +272,16 @@ impl App {
         if self.shows_statistics {
             self.view.hud.message = self.statistics();
         }
+    }
+
+    /// The size of a window that does not fill the screen is remembered.
+    fn note_window(&mut self) {
+        let scale = if cfg!(target_os = "macos") { 1.0 } else { screen_dpi_scale() };
+        let size = (screen_width() * scale, screen_height() * scale);
+        if size != self.last_size && !self.store.settings.full_screen {
+            self.store.settings.remember_window(size.0, size.1);
+        }
+        self.last_size = size;
     }
 
     /// What F3 puts on the display.

@@ -9,6 +9,7 @@ use shared::protocol::{Form, RATES, Role, check_name};
 use shared::table::Table;
 use starball_server::load_table;
 
+use crate::settings;
 use crate::streams::StreamChoice;
 
 /// Pinball that many can watch and up to four can play. Without a command it opens a table of its own.
@@ -17,12 +18,15 @@ use crate::streams::StreamChoice;
 pub(crate) struct Arguments {
     #[command(subcommand)]
     command: Option<Command>,
-    /// What others call you; otherwise your user name [1 to 24 characters].
+    /// What others call you; otherwise what the settings say, or your user name [1 to 24 characters].
     #[arg(long, global = true, value_parser = name)]
     name: Option<String>,
     /// A shipped table's name or a table file, for a table of your own.
     #[arg(long, value_name = "NAME|FILE")]
     table: Option<String>,
+    /// Where your settings are kept; otherwise where this system keeps those of programs.
+    #[arg(long, global = true, env = "STARBALL_SETTINGS", value_name = "FILE")]
+    settings: Option<PathBuf>,
     /// Saves a picture of the window and quits.
     #[arg(long, global = true, value_name = "FILE.png", value_parser = png)]
     screenshot: Option<PathBuf>,
@@ -103,8 +107,10 @@ impl Screenshot {
 pub(crate) struct Options {
     /// What to connect to.
     pub(crate) goal: Goal,
-    /// Checked.
-    pub(crate) name: String,
+    /// Checked; `None`: as the settings say.
+    pub(crate) name: Option<String>,
+    /// Where settings are kept; `None`: nowhere.
+    pub(crate) settings: Option<PathBuf>,
     /// A picture to be taken before quitting.
     pub(crate) screenshot: Option<Screenshot>,
     /// Frames a second, 0: no limit.
@@ -132,8 +138,9 @@ impl Arguments {
             (Some(Command::Watch(to)), None) => to.goal(Role::Watch),
         };
         let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
-        let name = self.name.unwrap_or_else(user_name);
-        Ok(Options { goal, name, screenshot, fps: self.fps, overlay: self.overlay, stats: self.stats })
+        let settings = self.settings.or_else(settings::usual_file);
+        let Self { name, fps, overlay, stats, .. } = self;
+        Ok(Options { goal, name, settings, screenshot, fps, overlay, stats })
     }
 }
 
@@ -142,12 +149,6 @@ impl Connect {
         let choice = StreamChoice { form: self.stream, hz: self.hz };
         Goal::Server { address: self.connect, role, choice }
     }
-}
-
-/// The user's name, if others can be shown it.
-fn user_name() -> String {
-    let user = std::env::var("USER").ok();
-    user.filter(|name| check_name(name).is_ok()).unwrap_or_else(|| "Player".to_owned())
 }
 
 fn name(text: &str) -> Result<String, String> {
@@ -223,7 +224,9 @@ mod tests {
         let options = check(&["play", "--connect", "localhost:7777", "--name", "Ann"]).unwrap();
         let Goal::Server { address, role, choice } = options.goal else { panic!("{:?}", options.goal) };
         assert_eq!((address.as_str(), role, choice), ("localhost:7777", Role::Play, StreamChoice::default()));
-        assert_eq!((options.name.as_str(), options.fps), ("Ann", 60));
+        assert_eq!((options.name.as_deref(), options.fps), (Some("Ann"), 60));
+        let settings = check(&["--settings", "x.ron"]).unwrap().settings;
+        assert_eq!(settings.as_deref(), Some(std::path::Path::new("x.ron")));
         let watch = check(&["watch", "--connect", "[::1]:1", "--stream", "state", "--hz", "20"]).unwrap();
         let Goal::Server { role, choice, .. } = watch.goal else { panic!("{:?}", watch.goal) };
         assert_eq!((role, choice), (Role::Watch, StreamChoice { form: Some(Form::State), hz: Some(20) }));

@@ -7,6 +7,8 @@ use macroquad::input::KeyCode;
 use shared::game::{Action, Nudge};
 use shared::protocol::{NUDGE_SECONDS, TAP_TICKS};
 
+use crate::settings::{Bindings, Control};
+
 /// Seconds that the plunger's key is held for a full pull.
 const PULL_SECONDS: f64 = 1.0;
 /// Share of the pull that the slightest touch of the key gives: a tap moves the ball a little.
@@ -17,7 +19,7 @@ const PULL_EVERY: f64 = 0.02;
 /// evenly as the frames.
 const NUDGE_EVERY: f64 = 1.2 * NUDGE_SECONDS;
 
-/// Something that keys work.
+/// A button: something that is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Part {
     Left,
@@ -27,41 +29,28 @@ enum Part {
 
 const PARTS: [Part; 3] = [Part::Left, Part::Right, Part::Plunger];
 
-impl Part {
-    /// The part that a key works, and the key's bit among those of the part.
-    fn of_key(key: KeyCode) -> Option<(Self, u8)> {
-        Some(match key {
-            KeyCode::LeftShift => (Self::Left, 1),
-            KeyCode::Z => (Self::Left, 2),
-            KeyCode::Left => (Self::Left, 4),
-            KeyCode::A => (Self::Left, 8),
-            KeyCode::RightShift => (Self::Right, 1),
-            KeyCode::Slash => (Self::Right, 2),
-            KeyCode::Right => (Self::Right, 4),
-            KeyCode::D => (Self::Right, 8),
-            KeyCode::Space => (Self::Plunger, 1),
-            KeyCode::Down => (Self::Plunger, 2),
-            _ => return None,
-        })
+/// What a control is to the game.
+enum Kind {
+    Button(Part),
+    Nudge(Nudge),
+}
+
+fn kind_of(control: Control) -> Kind {
+    match control {
+        Control::LeftFlipper => Kind::Button(Part::Left),
+        Control::RightFlipper => Kind::Button(Part::Right),
+        Control::Plunger => Kind::Button(Part::Plunger),
+        Control::NudgeLeft => Kind::Nudge(Nudge::FromLeft),
+        Control::NudgeRight => Kind::Nudge(Nudge::FromRight),
+        Control::NudgeForward => Kind::Nudge(Nudge::Forward),
     }
 }
 
-/// The nudge that a key gives, and the key's bit among those of all nudges.
-fn nudge_of_key(key: KeyCode) -> Option<(Nudge, u8)> {
-    Some(match key {
-        KeyCode::Q => (Nudge::FromLeft, 1),
-        KeyCode::E => (Nudge::FromRight, 2),
-        KeyCode::W => (Nudge::Forward, 4),
-        KeyCode::Up => (Nudge::Forward, 8),
-        _ => return None,
-    })
-}
-
 /// A button and the keys that work it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 struct Button {
-    /// Keys that are down, one bit each.
-    keys: u8,
+    /// Keys that are down.
+    held: Vec<KeyCode>,
     /// What the game was told.
     told: bool,
     /// The tick after which the next change may come.
@@ -71,11 +60,12 @@ struct Button {
 /// The hands of one player.
 #[derive(Debug, Default)]
 pub(crate) struct Controls {
+    bindings: Bindings,
     buttons: [Button; PARTS.len()],
     /// Changes since the last frame, in order.
     changes: Vec<(Part, bool)>,
-    /// Keys of nudges that are down, one bit each.
-    nudge_keys: u8,
+    /// Keys of nudges that are down.
+    nudge_keys: Vec<KeyCode>,
     /// Nudges since the last frame, in order.
     nudges: Vec<Nudge>,
     /// When the last one was given, seconds.
@@ -94,42 +84,50 @@ struct Pull {
 }
 
 impl Controls {
+    /// Hands on such keys.
+    pub(crate) fn new(bindings: Bindings) -> Self {
+        Self { bindings, ..Self::default() }
+    }
+
     /// A key went down. The keyboard's own repeats are no news.
     pub(crate) fn key_down(&mut self, key: KeyCode) {
-        if let Some((nudge, bit)) = nudge_of_key(key) {
-            if self.nudge_keys & bit == 0 {
+        match self.bindings.control_of(key).map(kind_of) {
+            Some(Kind::Nudge(nudge)) if !self.nudge_keys.contains(&key) => {
+                self.nudge_keys.push(key);
                 self.nudges.push(nudge);
             }
-            self.nudge_keys |= bit;
-            return;
+            Some(Kind::Button(part)) => {
+                let held = &mut self.buttons[part as usize].held;
+                if held.is_empty() {
+                    self.changes.push((part, true));
+                }
+                if !held.contains(&key) {
+                    held.push(key);
+                }
+            }
+            _ => {}
         }
-        let Some((part, bit)) = Part::of_key(key) else { return };
-        let keys = &mut self.buttons[part as usize].keys;
-        if *keys == 0 {
-            self.changes.push((part, true));
-        }
-        *keys |= bit;
     }
 
     /// A key went up. A button with two keys on it is released with the second.
     pub(crate) fn key_up(&mut self, key: KeyCode) {
-        if let Some((_, bit)) = nudge_of_key(key) {
-            self.nudge_keys &= !bit;
-            return;
+        self.nudge_keys.retain(|held| *held != key);
+        for part in PARTS {
+            let held = &mut self.buttons[part as usize].held;
+            if held.contains(&key) {
+                held.retain(|held| *held != key);
+                if held.is_empty() {
+                    self.changes.push((part, false));
+                }
+            }
         }
-        let Some((part, bit)) = Part::of_key(key) else { return };
-        let keys = &mut self.buttons[part as usize].keys;
-        if *keys == bit {
-            self.changes.push((part, false));
-        }
-        *keys &= !bit;
     }
 
     /// The keyboard is somebody else's now: everything is let go.
     pub(crate) fn release_all(&mut self) {
-        self.nudge_keys = 0;
+        self.nudge_keys.clear();
         for part in PARTS {
-            if std::mem::take(&mut self.buttons[part as usize].keys) != 0 {
+            if !std::mem::take(&mut self.buttons[part as usize].held).is_empty() {
                 self.changes.push((part, false));
             }
         }
@@ -140,7 +138,7 @@ impl Controls {
     pub(crate) fn wait(&mut self) {
         self.nudges.clear();
         let Self { buttons, changes, .. } = self;
-        let held = |part: Part| buttons[part as usize].keys != 0;
+        let held = |part: Part| !buttons[part as usize].held.is_empty();
         changes.clear();
         changes
             .extend(PARTS.into_iter().filter(|&part| held(part) != buttons[part as usize].told).map(|p| (p, held(p))));
@@ -155,10 +153,10 @@ impl Controls {
             self.active = active;
             (self.pull, self.nudged_at) = (None, None);
             for button in &mut self.buttons {
-                *button = Button { keys: button.keys, ..Button::default() };
+                *button = Button { held: std::mem::take(&mut button.held), ..Button::default() };
             }
-            changes =
-                PARTS.into_iter().filter(|&part| self.buttons[part as usize].keys != 0).map(|p| (p, true)).collect();
+            let held = PARTS.into_iter().filter(|&part| !self.buttons[part as usize].held.is_empty());
+            changes = held.map(|part| (part, true)).collect();
         }
         if !active {
             return;
@@ -218,6 +216,7 @@ fn share(seconds: f64) -> u16 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::settings::keys::Key;
 
     const LEFT: Action = Action::Flipper { right: false, pressed: true };
     const LEFT_UP: Action = Action::Flipper { right: false, pressed: false };
@@ -246,6 +245,19 @@ mod tests {
         // The next frame comes before those ticks: order is kept.
         controls.key_up(KeyCode::Z);
         assert_eq!(frame(&mut controls, 1.001, 101), [(101 + 2 * TAP_TICKS, LEFT_UP)]);
+    }
+
+    #[test]
+    fn keys_are_what_they_are_bound_to() {
+        let mut bindings = Bindings::default();
+        bindings.rebind(Control::LeftFlipper, vec![Key::of(KeyCode::O).unwrap()]).unwrap();
+        bindings.rebind(Control::NudgeForward, vec![Key::of(KeyCode::LeftShift).unwrap()]).unwrap();
+        let mut controls = Controls::new(bindings);
+        frame(&mut controls, 0.0, 0);
+        for key in [KeyCode::Z, KeyCode::W, KeyCode::O, KeyCode::LeftShift] {
+            controls.key_down(key);
+        }
+        assert_eq!(frame(&mut controls, 1.0, 100), [(100, Action::Nudge(Nudge::Forward)), (100, LEFT)]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
 //!
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
-//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `screens`, `effects`,
+//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `settings` (what they have chosen), `screens`, `effects`,
 //! `overlay` and `assemble` (what goes into a `view`), `render` (draws it).
 
 mod app;
@@ -22,6 +22,7 @@ mod render;
 mod report;
 mod screens;
 mod session;
+mod settings;
 mod snapshots;
 mod streams;
 mod timing;
@@ -42,6 +43,7 @@ use tracing_subscriber::EnvFilter;
 
 use app::{App, Step};
 use arguments::{Arguments, Goal, Options, Screenshot};
+use settings::Store;
 
 fn main() -> ExitCode {
     match run() {
@@ -91,10 +93,13 @@ fn in_window(options: Options) -> Result<(), String> {
     let prints_report = options.stats;
     let report = Rc::new(Cell::new(None));
     let outcome = Rc::clone(&report);
+    let store = Store::open(options.settings.clone());
+    let (width, height) = store.settings.window;
     let conf = Conf {
         window_title: "Starball".to_owned(),
-        window_width: 1280,
-        window_height: 720,
+        window_width: width.into(),
+        window_height: height.into(),
+        fullscreen: store.settings.full_screen,
         high_dpi: true,
         window_resizable: true,
         platform: Platform { linux_wm_class: "starball", ..Platform::default() },
@@ -102,7 +107,7 @@ fn in_window(options: Options) -> Result<(), String> {
     };
     macroquad::Window::from_config(conf, async move {
         prevent_quit();
-        let mut app = App::new(options, backdrop);
+        let mut app = App::new(options, store, backdrop);
         while app.frame(is_quit_requested()) == Step::Continue {
             next_frame().await;
         }

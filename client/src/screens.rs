@@ -7,6 +7,7 @@ use shared::protocol::Mode;
 use crate::moment::Moment;
 use crate::render::grouped;
 use crate::session::{Outcome, Session};
+use crate::settings::{Bindings, Control};
 
 /// What the screen says.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -65,7 +66,7 @@ pub(crate) fn title(session: &Session) -> String {
 }
 
 /// While a game is to be seen.
-pub(crate) fn live(session: &Session, now: f64) -> Words {
+pub(crate) fn live(session: &Session, bindings: &Bindings, now: f64) -> Words {
     let main = session.main_board();
     let Some(moment) = session.moment(main) else {
         return Words { message: "WELCOME".to_owned(), ..connecting("") };
@@ -78,12 +79,12 @@ pub(crate) fn live(session: &Session, now: f64) -> Words {
     let message = match session.effects(main).and_then(|effects| effects.message(now)) {
         _ if session.is_silent(now) => "NO SIGNAL".to_owned(),
         // Whatever else there is to say: the buttons are dead.
-        _ if has_tilted(moment.game) && standing == Standing::Plunger => "TILT: HOLD SPACE".to_owned(),
+        _ if has_tilted(moment.game) && standing == Standing::Plunger => hold_plunger("TILT: HOLD ", bindings, ""),
         _ if has_tilted(moment.game) => "TILT".to_owned(),
         Some(message) => message.to_owned(),
-        None => standing.message(),
+        None => standing.message(bindings),
     };
-    let mut keys = standing.keys(session.table().file.cabinet.is_some());
+    let mut keys = standing.keys(bindings, session.table().file.cabinet.is_some());
     if session.can_pause() && session.is_playing() {
         keys.insert(keys.len() - 1, ("P".to_owned(), "PAUSE".to_owned()));
     }
@@ -178,7 +179,7 @@ impl Standing {
         }
     }
 
-    fn message(&self) -> String {
+    fn message(&self, bindings: &Bindings) -> String {
         match self {
             Self::Attract { .. } => "PRESS ENTER".to_owned(),
             Self::Watching { can_join: true } => "ENTER: JOIN".to_owned(),
@@ -186,7 +187,7 @@ impl Standing {
             Self::InLine(1) => "YOU ARE NEXT".to_owned(),
             Self::InLine(place) => format!("IN LINE: {place}"),
             Self::Over { outcome, .. } => headline(outcome),
-            Self::Plunger => "HOLD SPACE, LET GO".to_owned(),
+            Self::Plunger => hold_plunger("HOLD ", bindings, ", LET GO"),
             Self::Turn => "SHOOT".to_owned(),
             Self::Waiting(name) if name.is_empty() => "WAIT".to_owned(),
             Self::Waiting(name) => format!("{name} PLAYS"),
@@ -194,7 +195,7 @@ impl Standing {
     }
 
     /// `can_nudge`: the table moves when it is nudged.
-    fn keys(&self, can_nudge: bool) -> Vec<(String, String)> {
+    fn keys(&self, bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
         match self {
             Self::Attract { .. } => {
                 keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")])
@@ -207,11 +208,7 @@ impl Standing {
             Self::Over { has_place: true, .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
             Self::Over { line: Some(_), .. } => keys(&[("ESC", "LEAVE THE LINE")]),
             Self::Over { .. } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
-            Self::Plunger | Self::Turn => {
-                let nudge: &[_] = if can_nudge { &[("Q, W, E", "NUDGE")] } else { &[] };
-                let play: &[_] = &[("L SHIFT, Z", "LEFT"), ("R SHIFT, /", "RIGHT"), ("SPACE", "PLUNGER")];
-                keys(&[play, nudge, &[("ESC", "LEAVE")]].concat())
-            }
+            Self::Plunger | Self::Turn => playing_keys(bindings, can_nudge),
             Self::Waiting(_) => keys(&[("ESC", "LEAVE")]),
         }
     }
@@ -233,6 +230,32 @@ impl Standing {
             }
             _ => Default::default(),
         }
+    }
+}
+
+/// The keys of whoever has the turn, as they are bound; what has no key is left out.
+fn playing_keys(bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
+    let first = |controls: &[Control]| {
+        let labels = controls.iter().map(|&control| bindings.labels(control, 1));
+        labels.filter(|label| !label.is_empty()).collect::<Vec<_>>().join(", ")
+    };
+    let nudges = [Control::NudgeLeft, Control::NudgeForward, Control::NudgeRight];
+    let rows = [
+        (bindings.labels(Control::LeftFlipper, 2), "LEFT"),
+        (bindings.labels(Control::RightFlipper, 2), "RIGHT"),
+        (first(&[Control::Plunger]), "PLUNGER"),
+        (if can_nudge { first(&nudges) } else { String::new() }, "NUDGE"),
+        ("ESC".to_owned(), "LEAVE"),
+    ];
+    let rows = rows.into_iter().filter(|(key, _)| !key.is_empty());
+    rows.map(|(key, does)| (key, does.to_owned())).collect()
+}
+
+/// What to do with the plunger, around the label of its first key.
+fn hold_plunger(before: &str, bindings: &Bindings, after: &str) -> String {
+    match bindings.labels(Control::Plunger, 1) {
+        label if label.is_empty() => "PULL THE PLUNGER".to_owned(),
+        label => format!("{before}{label}{after}"),
     }
 }
 
