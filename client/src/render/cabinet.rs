@@ -32,7 +32,7 @@ pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, panels: &Panels) {
 }
 
 /// The dark around the table, a little lighter near it.
-fn room(canvas: &mut Canvas, layout: &Layout) {
+pub(super) fn room(canvas: &mut Canvas, layout: &Layout) {
     let size = layout.size.to_vec();
     let middle = layout.cabinet.center();
     canvas.wash(Rect::new(0.0, 0.0, size.x, size.y), |p| {

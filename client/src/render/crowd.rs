@@ -18,7 +18,7 @@ const STATE: f32 = 7.0;
 
 /// Where the warning stands: at the lower end of the table, where the player looks and no ball is played any more.
 pub(super) fn alarm_area(layout: &Layout, panels: &Panels) -> Rect {
-    let field = layout.playfield();
+    let field = layout.seen_playfield();
     let height = (rows(panels.small) * 1.5 + rows(panels.medium) * 1.5).max(field.h * 0.055).round();
     Rect::new((field.x + field.w * 0.03).round(), field.bottom() - height, (field.w * 0.85).round(), height)
 }

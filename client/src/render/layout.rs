@@ -2,6 +2,8 @@
 
 use macroquad::math::{Rect, Vec2, vec2};
 
+use super::camera::Reach;
+
 /// Size of a picture in physical pixels; never 0 by 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct PixelSize {
@@ -21,6 +23,17 @@ const MOST_SHAKE: f32 = 0.012;
 /// Graphics cards of the oldest kind that macroquad runs on hold textures up to this size. A larger window is painted
 /// at this size and enlarged.
 const LARGEST: f32 = 4096.0;
+
+/// The whole table is shown where a metre of it gets so many pixels (a ball is then 13 pixels across), ...
+const LEAST_SCALE: f32 = 480.0;
+/// ... and no more than so many metres are in the window's height: beyond that a ball is small in any window.
+const LONGEST_SHOWN: f32 = 1.3;
+/// Where a table scrolls, a metre of it gets at least so many pixels, ...
+const SCROLLED_SCALE: f32 = 560.0;
+/// ... and about so many metres are seen at once, as much as of a usual table.
+const SCROLLED_LENGTH: f32 = 1.1;
+/// Scrolling is worth it from so much enlargement on.
+const WORTH_SCROLLING: f32 = 1.1;
 
 /// A panel is at most this many times as wide as the table: on a very wide window, text stays beside the table.
 const WIDEST_PANEL: f32 = 1.3;
@@ -52,8 +65,10 @@ pub(super) fn letterbox(picture: PixelSize, window: Vec2) -> Rect {
 pub(super) struct Layout {
     /// Of the whole picture.
     pub(super) size: PixelSize,
-    /// The table with its wooden frame.
+    /// The table with its wooden frame. One that scrolls is taller than its opening; here it is seen from its lower end.
     pub(super) cabinet: Rect,
+    /// The part of the picture through which the table is seen.
+    pub(super) opening: Rect,
     /// Pixels a metre.
     pub(super) scale: f32,
     /// Panel with title, scores and the message.
@@ -70,10 +85,12 @@ impl Layout {
         let window = size.to_vec();
         let outer = Self::outer(table);
         let aspect = window.x / window.y;
-        let (area, main_panel, side_panel);
+        let scale_within = |room: Vec2| scale_within(room, outer);
+        let (area, scale, main_panel, side_panel);
         if aspect >= 1.15 {
             // Wide: the table in the middle, a panel at either side.
-            let width = (window.y * outer.x / outer.y).min(window.x * 0.6).round();
+            scale = scale_within(vec2(window.x * 0.6, window.y));
+            let width = (outer.x * scale).min(window.x * 0.6).round();
             let panel = ((window.x - width) / 2.0).floor();
             let used = panel.min((width * WIDEST_PANEL).floor());
             area = Rect::new(panel, 0.0, width, window.y);
@@ -81,7 +98,8 @@ impl Layout {
             side_panel = Rect::new(panel + width, 0.0, used, window.y);
         } else if aspect >= 0.8 {
             // Nearly square: the table at the left, both panels stacked at its right.
-            let width = (window.y * outer.x / outer.y).min(window.x * 0.6).round();
+            scale = scale_within(vec2(window.x * 0.6, window.y));
+            let width = (outer.x * scale).min(window.x * 0.6).round();
             let upper = (window.y * 0.5).round();
             area = Rect::new(0.0, 0.0, width, window.y);
             main_panel = Rect::new(width, 0.0, window.x - width, upper);
@@ -92,14 +110,15 @@ impl Layout {
             let upper = spare.clamp(window.y * 0.30, window.y * 0.4).round();
             let half = (window.x * 0.56).round();
             area = Rect::new(0.0, upper, window.x, window.y - upper);
+            scale = scale_within(area.size());
             main_panel = Rect::new(0.0, 0.0, half, upper);
             side_panel = Rect::new(half, 0.0, window.x - half, upper);
         }
-        let scale = (vec2(area.w, area.h) / outer).min_element();
         let fitted = outer * scale;
-        let corner = (area.center() - fitted / 2.0).round().max(Vec2::ZERO);
-        let cabinet = Rect::new(corner.x, corner.y, fitted.x, fitted.y);
-        Self { size, cabinet, scale, main_panel, side_panel, table }
+        let corner = (area.center() - fitted / 2.0).round().max(vec2(0.0, area.y));
+        let y = if fitted.y > area.h + 1.0 { (area.bottom() - fitted.y).round() } else { corner.y };
+        let cabinet = Rect::new(corner.x, y, fitted.x, fitted.y);
+        Self { size, cabinet, opening: area, scale, main_panel, side_panel, table }
     }
 
     /// A picture of the table alone, with its frame.
@@ -110,7 +129,7 @@ impl Layout {
         let corner = (window - fitted) / 2.0;
         let cabinet = Rect::new(corner.x, corner.y, fitted.x, fitted.y);
         let nothing = Rect::default();
-        Self { size, cabinet, scale, main_panel: nothing, side_panel: nothing, table }
+        Self { size, cabinet, opening: cabinet, scale, main_panel: nothing, side_panel: nothing, table }
     }
 
     /// Size of a table with its frame, metres.
@@ -120,7 +139,35 @@ impl Layout {
 
     /// The same somewhere else.
     pub(super) fn moved(&self, by: Vec2) -> Self {
-        Self { cabinet: self.cabinet.offset(by), ..self.clone() }
+        Self { cabinet: self.cabinet.offset(by), opening: self.opening.offset(by), ..self.clone() }
+    }
+
+    /// The table with its frame alone, all of it, in the upper left corner: for what is painted once.
+    pub(super) fn of_board(&self) -> Self {
+        let side = |length: f32| length.ceil().clamp(1.0, LARGEST) as u16;
+        let size = PixelSize { width: side(self.cabinet.w), height: side(self.cabinet.h) };
+        let cabinet = Rect::new(0.0, 0.0, self.cabinet.w, self.cabinet.h);
+        Self { size, cabinet, opening: cabinet, ..self.clone() }
+    }
+
+    /// How much of the table is seen.
+    pub(super) fn reach(&self) -> Reach {
+        let seen = self.opening.h.min(self.cabinet.h);
+        let hidden = self.cabinet.h - seen;
+        // What is rounded is no reason to scroll.
+        let hidden = if hidden < 2.0 { 0.0 } else { hidden };
+        Reach { seen: seen / self.scale, hidden: hidden / self.scale, frame: FRAME }
+    }
+
+    /// The same with the table so many metres further down, so that its upper end is seen. Whole pixels keep it sharp.
+    pub(super) fn scrolled(&self, metres: f32) -> Self {
+        let down = vec2(0.0, (metres * self.scale).round());
+        Self { cabinet: self.cabinet.offset(down), ..self.clone() }
+    }
+
+    /// The part of the playfield that is seen.
+    pub(super) fn seen_playfield(&self) -> Rect {
+        self.playfield().intersect(self.opening).unwrap_or_default()
     }
 
     /// The same with the table off its place by so many metres. A real table moves by a millimetre: here it is more, so that
@@ -155,6 +202,15 @@ impl Layout {
     }
 }
 
+/// Pixels a metre for a table of a size in metres that may take so much room: the whole of it if that is of a decent size,
+/// else as much as a player needs.
+fn scale_within(room: Vec2, outer: Vec2) -> f32 {
+    let whole = (room / outer).min_element();
+    let is_decent = whole >= LEAST_SCALE.max(room.y / LONGEST_SHOWN);
+    let wanted = SCROLLED_SCALE.max(room.y / SCROLLED_LENGTH).min(room.x / outer.x).min(LARGEST / outer.y);
+    if is_decent || wanted < whole * WORTH_SCROLLING { whole } else { wanted }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -176,11 +232,12 @@ mod tests {
         for size in sides_and_extremes() {
             let layout = Layout::new(size, TABLE);
             let window = size.to_vec();
-            for rect in [layout.cabinet, layout.playfield(), layout.main_panel, layout.side_panel] {
+            let seen = layout.cabinet.intersect(layout.opening).unwrap();
+            for rect in [seen, layout.seen_playfield(), layout.main_panel, layout.side_panel] {
                 assert!(inside(rect, window), "{size:?}: {rect:?}");
             }
             for panel in [layout.main_panel, layout.side_panel] {
-                let shared = panel.intersect(layout.cabinet);
+                let shared = panel.intersect(seen);
                 assert!(shared.is_none_or(|both| both.w < 1.0 || both.h < 1.0), "{size:?}: {panel:?} {shared:?}");
             }
             assert!(layout.main_panel.intersect(layout.side_panel).is_none_or(|both| both.w < 1.0 || both.h < 1.0));
@@ -190,6 +247,29 @@ mod tests {
     fn sides_and_extremes() -> impl Iterator<Item = PixelSize> {
         let extremes = [(4000, 200), (200, 3000), (1, 1), (1, 3000), (4000, 1)];
         sizes().chain(extremes.into_iter().map(|(width, height)| PixelSize { width, height }))
+    }
+
+    #[test]
+    fn a_table_scrolls_where_it_would_be_too_small() {
+        let hidden = |width, height, table| Layout::new(PixelSize { width, height }, table).reach().hidden;
+        let tall = vec2(0.514, 1.9);
+        for (width, height) in [(1280, 720), (1920, 1080), (800, 600), (500, 900), (3840, 2160)] {
+            assert_eq!(hidden(width, height, TABLE), 0.0, "{width} x {height}");
+            assert!((0.3..1.5).contains(&hidden(width, height, tall)), "{width} x {height}");
+        }
+        assert!((0.2..0.6).contains(&hidden(1280, 400, TABLE)));
+    }
+
+    #[test]
+    fn both_ends_of_a_table_that_scrolls_come_into_sight() {
+        let layout = Layout::new(PixelSize { width: 1280, height: 400 }, TABLE);
+        let (opening, hidden) = (layout.opening, layout.reach().hidden);
+        assert!((layout.cabinet.bottom() - opening.bottom()).abs() <= 1.0);
+        let upper = layout.scrolled(hidden).cabinet;
+        assert!((upper.y - opening.y).abs() <= 1.0, "{upper:?}");
+        let board = layout.of_board();
+        assert_eq!(board.scale, layout.scale);
+        assert!(f32::from(board.size.height) >= layout.cabinet.h);
     }
 
     #[test]

@@ -2,11 +2,12 @@
 //!
 //! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
 //! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
-//! `atlas`) and placed by `scene`, `mechanisms`, `overlay`, `hud` and `crowd`; `minis` does both for boards that are small. `layout` and `panels` say where; `back_buffer` shows whole frames only.
+//! `atlas`) and placed by `scene`, `mechanisms`, `overlay`, `hud` and `crowd`; `minis` does both for boards that are small. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames only.
 
 mod atlas;
 mod back_buffer;
 mod cabinet;
+mod camera;
 mod canvas;
 mod crowd;
 mod dot_matrix;
@@ -29,13 +30,14 @@ use macroquad::color::WHITE;
 use macroquad::material::{Material, MaterialParams, gl_use_default_material, gl_use_material, load_material};
 use macroquad::math::{Rect, vec2};
 use macroquad::miniquad::{BlendFactor, BlendState, BlendValue, Equation, PipelineParams, ShaderSource};
-use macroquad::texture::{DrawTextureParams, FilterMode, Texture2D, draw_texture, draw_texture_ex};
+use macroquad::texture::{DrawTextureParams, FilterMode, Image, Texture2D, draw_texture, draw_texture_ex};
 use macroquad::window::{screen_dpi_scale, screen_height, screen_width};
 use shared::table::TableFile;
 
 use crate::view::View;
 use atlas::{Batch, Sprite};
 use back_buffer::BackBuffer;
+use camera::Camera;
 use dot_matrix::Fonts;
 pub(crate) use dot_matrix::grouped;
 use hud::Writer;
@@ -52,6 +54,7 @@ pub(crate) struct Renderer {
     table: TableFile,
     blending: Blending,
     back_buffer: BackBuffer,
+    camera: Camera,
     /// Everything painted for one size of the window; made by the first frame.
     art: Option<Art>,
 }
@@ -60,15 +63,21 @@ pub(crate) struct Renderer {
 struct Art {
     layout: Layout,
     panels: Panels,
-    /// All that stands still, the whole picture.
-    still: Texture2D,
-    /// What of it lies above balls on the board, on a clear ground.
-    above: Option<Texture2D>,
+    /// The room and the panels.
+    room: Texture2D,
+    board: Board,
     sprites: Sprites<Sprite>,
     fonts: Fonts,
     batch: Batch,
     /// For boards that are small; made when there are any.
     minis: Option<Minis>,
+}
+
+/// What stands still of a table, as large as the table with its frame.
+struct Board {
+    still: Texture2D,
+    /// What of it lies above balls on the board, on a clear ground.
+    above: Option<Texture2D>,
 }
 
 /// Why a frame was given up before it was whole.
@@ -82,12 +91,18 @@ enum Abandoned {
 impl Renderer {
     /// A renderer for a table. Needs macroquad's window; paints nothing yet.
     pub(crate) fn new(table: &TableFile) -> Self {
-        Self { table: table.clone(), blending: Blending::new(), back_buffer: BackBuffer::new(), art: None }
+        Self {
+            table: table.clone(),
+            blending: Blending::new(),
+            back_buffer: BackBuffer::new(),
+            camera: Camera::default(),
+            art: None,
+        }
     }
 
     /// Draws one frame and shows it. If the view does not belong to the table, the last whole frame stays.
     pub(crate) fn draw(&mut self, view: &View) {
-        let Self { table, blending, back_buffer, art } = self;
+        let Self { table, blending, back_buffer, camera, art } = self;
 
         // 1. The art for the window's size.
         let dpi_scale = screen_dpi_scale();
@@ -96,7 +111,8 @@ impl Renderer {
         let art = art.insert(current.unwrap_or_else(|| Art::paint(size, table)));
 
         // 2. The frame, whole, into the back buffer.
-        let painted = back_buffer.frame(size, || paint_frame(table, blending, art, view));
+        let bottom = camera.follow(view, art.layout.reach());
+        let painted = back_buffer.frame(size, || paint_frame(table, blending, art, view, bottom));
 
         // 3. The newest whole frame on the screen, in one blit.
         blending.overwrite();
@@ -113,29 +129,32 @@ impl Renderer {
     }
 }
 
-/// Paints one frame with the camera that is set.
-fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &View) -> Result<(), Abandoned> {
+/// Paints one frame with the camera that is set; of a table that scrolls, the part from `bottom` metres up.
+fn paint_frame(
+    table: &TableFile,
+    blending: &Blending,
+    art: &mut Art,
+    view: &View,
+    bottom: f32,
+) -> Result<(), Abandoned> {
     let counts = (view.elements.len(), table.elements.len());
     if counts.0 != counts.1 {
         return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
     }
-    let Art { layout, panels, still, above, sprites, fonts, batch, minis } = art;
-    let resting = &*layout;
-    let layout = &resting.shaken(view.cabinet);
+    let Art { layout: resting, panels, room, board, sprites, fonts, batch, minis } = art;
+    let layout = &resting.scrolled(bottom).shaken(view.cabinet);
+    let corner = layout.cabinet.point();
 
     // 1. What stands still covers every pixel of the last frame.
     blending.overwrite();
-    draw_texture(still, 0.0, 0.0, WHITE);
-    if layout != resting {
-        // A nudged table once more, beside its place: its frame hides the one below.
-        draw_shifted(still, resting, layout);
-    }
+    draw_texture(room, 0.0, 0.0, WHITE);
+    draw_texture(&board.still, corner.x, corner.y, WHITE);
 
     // 2. What moves on the table.
     blending.layer();
     let draw_above = || {
-        if let Some(above) = above {
-            draw_shifted(above, resting, layout);
+        if let Some(above) = &board.above {
+            draw_texture(above, corner.x, corner.y, WHITE);
         }
     };
     let mut stage = Stage { layout, panels, table, sprites, fonts, batch };
@@ -145,15 +164,28 @@ fn paint_frame(table: &TableFile, blending: &Blending, art: &mut Art, view: &Vie
     if let Some(overlay) = &view.overlay {
         OverlayPainter { layout, panels, sprites, fonts, batch }.draw(overlay);
     }
-
-    // 4. Text.
-    let mut writer = Writer { panels, fonts, batch };
-    let slots = writer.panels(view, vec2(table.size.0 as f32, table.size.1 as f32));
-    writer.banner(&view.hud, sprites.plate, sprites::banner_area(layout, panels));
-    writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(layout, panels), view.clock);
     batch.flush();
 
-    // 5. The boards that are small.
+    // 4. The panels once more where a table scrolls below them.
+    if layout.cabinet.y < layout.opening.y {
+        let above = Rect { h: layout.opening.y, y: 0.0, ..layout.opening };
+        let params = DrawTextureParams { source: Some(above), ..DrawTextureParams::default() };
+        blending.overwrite();
+        draw_texture_ex(room, above.x, above.y, WHITE, params);
+        blending.layer();
+    }
+
+    // 5. Text.
+    if let Some(overlay) = &view.overlay {
+        OverlayPainter { layout, panels, sprites, fonts, batch }.words(overlay);
+    }
+    let mut writer = Writer { panels, fonts, batch };
+    let slots = writer.panels(view, vec2(table.size.0 as f32, table.size.1 as f32));
+    writer.banner(&view.hud, sprites.plate, sprites::banner_area(resting, panels));
+    writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(resting, panels), view.clock);
+    batch.flush();
+
+    // 6. The boards that are small.
     for (slot, other) in slots.iter().zip(&view.others) {
         let current = minis.take().filter(|minis| minis.fits(slot.board));
         let minis = minis.insert(current.unwrap_or_else(|| Minis::paint(slot.board, table)));
@@ -167,31 +199,36 @@ impl Art {
     fn paint(size: PixelSize, table: &TableFile) -> Self {
         let layout = Layout::new(size, vec2(table.size.0 as f32, table.size.1 as f32));
         let panels = Panels::new(&layout);
-        let picture = canvas::paint_in_bands(size.width, size.height, |canvas| {
+        let room = still_texture(&canvas::paint_in_bands(size.width, size.height, |canvas| {
             cabinet::paint(canvas, &layout, &panels);
-            playfield::paint(canvas, &layout, table);
-            mechanisms::paint(canvas, &layout, table, false);
-            furniture::paint(canvas, &layout, table);
-        });
-        let texture = |picture| {
-            let texture = Texture2D::from_image(picture);
-            texture.set_filter(FilterMode::Nearest);
-            texture
-        };
-        let ramps = Ramps::of(&layout, table);
-        let above = ramps.map(|ramps| canvas::paint_in_bands(size.width, size.height, |canvas| ramps.paint(canvas)));
-        let (still, above) = (texture(&picture), above.as_ref().map(texture));
+        }));
+        let board = Board::paint(&layout.of_board(), table);
         let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
-        Self { layout, panels, still, above, sprites, fonts, batch, minis: None }
+        Self { layout, panels, room, board, sprites, fonts, batch, minis: None }
     }
 }
 
-/// The table's part of a whole picture, where a layout has it.
-fn draw_shifted(picture: &Texture2D, resting: &Layout, layout: &Layout) {
-    let Rect { x, y, w, h } = resting.cabinet;
-    let source = Rect::new(x, y, w.floor(), h.floor());
-    let params = DrawTextureParams { source: Some(source), dest_size: Some(source.size()), ..Default::default() };
-    draw_texture_ex(picture, layout.cabinet.x, layout.cabinet.y, WHITE, params);
+impl Board {
+    /// Paints a layout of the table alone.
+    fn paint(layout: &Layout, table: &TableFile) -> Self {
+        let PixelSize { width, height } = layout.size;
+        let still = canvas::paint_in_bands(width, height, |canvas| {
+            cabinet::room(canvas, layout);
+            playfield::paint(canvas, layout, table);
+            mechanisms::paint(canvas, layout, table, false);
+            furniture::paint(canvas, layout, table);
+        });
+        let ramps = Ramps::of(layout, table);
+        let above = ramps.map(|ramps| canvas::paint_in_bands(width, height, |canvas| ramps.paint(canvas)));
+        Self { still: still_texture(&still), above: above.as_ref().map(still_texture) }
+    }
+}
+
+/// A picture that is drawn pixel for pixel.
+fn still_texture(picture: &Image) -> Texture2D {
+    let texture = Texture2D::from_image(picture);
+    texture.set_filter(FilterMode::Nearest);
+    texture
 }
 
 /// How colours are laid over each other.

@@ -32,9 +32,9 @@ pub(super) struct OverlayPainter<'a> {
 }
 
 impl OverlayPainter<'_> {
-    /// Over the table as it is drawn.
+    /// Over the table as it is drawn. The words beside it are drawn by [`Self::words`].
     pub(super) fn draw(&mut self, overlay: &OverlayView) {
-        self.batch.stretch(self.sprites.dot, self.layout.playfield(), tint(Vec3::ZERO, DIM));
+        self.batch.stretch(self.sprites.dot, self.layout.seen_playfield(), tint(Vec3::ZERO, DIM));
         for line in &overlay.lines {
             self.line(line);
         }
@@ -44,7 +44,6 @@ impl OverlayPainter<'_> {
         for label in &overlay.labels {
             self.label(label);
         }
-        self.words(&overlay.words);
     }
 
     /// Lines are at least a pixel wide, and a little wider in a large window.
@@ -114,8 +113,11 @@ impl OverlayPainter<'_> {
     fn label(&mut self, label: &OverlayLabel) {
         let pitch = self.pitch(self.panels.small / 2);
         let size = measure(&label.text, pitch);
-        let field = self.layout.playfield();
+        let field = self.layout.seen_playfield();
         let place = self.layout.point(label.place);
+        if !field.contains(place) {
+            return;
+        }
         // A ball's own words stand above it, those of what it meets below.
         let gap = self.layout.length(0.020);
         let down = if label.mark == Mark::Impact { gap } else { -gap - size.y };
@@ -139,7 +141,7 @@ impl OverlayPainter<'_> {
     }
 
     /// In the side panel, where onlookers are listed otherwise.
-    fn words(&mut self, words: &[(Mark, String)]) {
+    pub(super) fn words(&mut self, OverlayView { words, .. }: &OverlayView) {
         let area = self.panels.onlookers;
         let inset = (self.panels.padding * 1.2).round();
         let step = |pitch: u16| f32::from(ROWS * pitch) * 1.5;

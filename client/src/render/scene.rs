@@ -69,7 +69,7 @@ impl Stage<'_> {
         draw_above();
         self.floor(view, true);
         if view.dimmed {
-            self.batch.stretch(self.sprites.dot, self.layout.playfield(), tint(Vec3::ZERO, DIMMED));
+            self.batch.stretch(self.sprites.dot, self.layout.seen_playfield(), tint(Vec3::ZERO, DIMMED));
         }
         // 4. What floats above.
         self.slaps(view.slaps);
@@ -133,7 +133,7 @@ impl Stage<'_> {
 
     /// Light along the side of the table that a hand slaps: left, right, below.
     fn slaps(&mut self, [left, right, below]: [f32; 3]) {
-        let field = self.layout.playfield();
+        let field = self.layout.seen_playfield();
         let reach = field.w * 0.16;
         let tall = |x: f32| Rect::new(x - reach / 2.0, field.y + field.h * 0.45, reach, field.h * 0.5);
         let wide = Rect::new(field.x + field.w * 0.2, field.bottom() - reach / 2.0, field.w * 0.6, reach);
@@ -306,7 +306,7 @@ impl Stage<'_> {
         let age = popup.age.clamp(0.0, 1.0);
         let pitch = self.panels.popup;
         let size = measure(&popup.text, pitch);
-        let field = self.layout.playfield();
+        let field = self.layout.seen_playfield();
         let rise = vec2(0.0, self.layout.length(0.026 + 0.05 * f64::from(age)));
         let mut corner = self.layout.point(popup.position) - rise - size / 2.0;
         corner.x = corner.x.clamp(field.x, (field.right() - size.x).max(field.x));

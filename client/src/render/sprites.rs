@@ -82,7 +82,7 @@ pub(super) fn build(layout: &Layout, panels: &Panels, table: &TableFile) -> (Bat
 
 /// Where the banner's plate stands: across the playfield, above its middle.
 pub(super) fn banner_area(layout: &Layout, panels: &Panels) -> Rect {
-    let field = layout.playfield();
+    let field = layout.seen_playfield();
     let height = f32::from(panels.banner) * 22.0;
     let width = (field.w * 0.96).round();
     Rect::new((field.center().x - width / 2.0).round(), (field.y + field.h * 0.44).round(), width, height.round())
