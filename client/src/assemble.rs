@@ -26,6 +26,7 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     let mut view = board_view(session, main, words, now);
     let Some(moment) = session.moment(main) else { return view };
     fill_hud(&mut view.hud, session, &moment);
+    view.light_show = screens::is_attract(session) && (view.hud.ball == 0 || !view.hud.banner.is_empty());
     view.overlay = with_overlay.then(|| overlay_of(&moment));
     if with_overlay {
         // Whoever wants to see the physics wants nothing in front of it; the display says the same.
@@ -53,22 +54,30 @@ fn other_board(session: &mut Session, board: usize, now: f64) -> Option<OtherBoa
 
 /// What is to be seen on a board.
 fn board_view(session: &mut Session, board: usize, words: Words, now: f64) -> View {
-    let popups = session.effects_mut(board).map(|effects| effects.popups(now)).unwrap_or_default();
+    let balls = session.moment(board).map(|moment| moment.balls).unwrap_or_default();
+    let radius = session.table().file.ball.radius as f32;
+    let fading = session.effects_mut(board).map(|effects| {
+        effects.see(&balls, radius, now);
+        (effects.popups(now), effects.bursts(now))
+    });
     let table = session.table();
     let mut view = still_view(table, words, now);
     let (Some(moment), Some(effects)) = (session.moment(board), session.effects(board)) else { return view };
-    let balls = moment.balls.iter();
     let ball_view = |ball: &Motion| BallView {
         position: ball.position.as_vec2(),
         velocity: ball.velocity.as_vec2(),
         floor: ball.floor,
         held: ball.is_held,
+        orientation: effects.orientation_of(ball.id),
     };
-    view.balls = balls.map(ball_view).collect();
+    view.balls = balls.iter().map(ball_view).collect();
     let flippers = table.scene.flippers.iter().zip(&moment.flippers);
     view.flippers = flippers.map(|(spec, swing)| (spec.rest - swing) as f32).collect();
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();
-    view.popups = popups;
+    (view.popups, view.bursts) = fading.unwrap_or_default();
+    view.cheer = effects.cheer(now);
+    // Whoever came later has not seen when.
+    view.tilt = screens::has_tilted(moment.game).then(|| effects.tilt(now).unwrap_or(f32::INFINITY));
     view.cabinet = moment.cabinet.as_vec2();
     view.slaps = NUDGES.map(|nudge| effects.slap_of(nudge, now));
     view.dimmed = moment.game.is_dimmed();

@@ -1,10 +1,16 @@
-//! What events leave to be seen for a moment: flashes, points that float up, a line on the display.
+//! What events leave to be seen for a moment: flashes, points that float up, sparks, cheers, a line on the display.
 
-use macroquad::math::{Vec2, vec2};
+mod bursts;
+mod rolling;
+
+use macroquad::math::{Quat, Vec2, vec2};
 use shared::game::{GameEvent, GameEventKind, Nudge, Rescue};
 use shared::table::Table;
 
-use crate::view::Popup;
+use crate::moment::Motion;
+use crate::view::{Burst, Popup};
+use bursts::Bursts;
+use rolling::Rolling;
 
 /// Seconds that an element's flash takes to fade.
 const FLASH_SECONDS: f64 = 0.33;
@@ -18,6 +24,11 @@ const MESSAGE_SECONDS: f64 = 2.5;
 /// Points that float at once; the oldest go first.
 const MOST_POPUPS: usize = 24;
 
+/// Seconds that something great is cheered.
+const CHEER_SECONDS: f64 = 2.4;
+/// Words by which a message is known for something great.
+const GREAT: [&str; 5] = ["JACKPOT", "EXTRA BALL", "MULTIBALL", "SPECIAL", "SUPER"];
+
 /// What is to be seen of past events.
 #[derive(Debug, Default)]
 pub(crate) struct Effects {
@@ -28,11 +39,17 @@ pub(crate) struct Effects {
     message: Option<(f64, String)>,
     /// The last nudge from each side, and when.
     slaps: Vec<(Nudge, f64)>,
+    bursts: Bursts,
+    /// When something great was reached, and when the game tilted.
+    cheered: Option<f64>,
+    tilted: Option<f64>,
+    rolling: Rolling,
 }
 
 impl Effects {
     /// Takes in what happened, seen at `now` seconds while `loose` balls were in play that no saucer holds.
     pub(crate) fn note(&mut self, event: &GameEvent, table: &Table, loose: usize, now: f64) {
+        self.bursts.note(event, table, now);
         match event.kind {
             GameEventKind::Kicked { element, .. }
             | GameEventKind::Felled { element, .. }
@@ -46,6 +63,9 @@ impl Effects {
             }
             GameEventKind::Message { place } => {
                 if let Some(text) = table.rules.messages.get(usize::from(place)) {
+                    if GREAT.iter().any(|word| text.contains(word)) {
+                        self.cheered = Some(now);
+                    }
                     self.say(text.clone(), now);
                 }
             }
@@ -67,7 +87,10 @@ impl Effects {
                 self.slaps.push((nudge, now));
             }
             GameEventKind::Warned { .. } => self.say("DANGER".to_owned(), now),
-            GameEventKind::Tilted { .. } => self.say("TILT".to_owned(), now),
+            GameEventKind::Tilted { .. } => {
+                (self.tilted, self.cheered) = (Some(now), None);
+                self.say("TILT".to_owned(), now);
+            }
             _ => {}
         }
     }
@@ -85,6 +108,33 @@ impl Effects {
             self.popups.remove(0);
         }
         self.popups.push((now, place, points));
+    }
+
+    /// Takes in where balls of a radius in metres are seen at `now`, and how they spin.
+    pub(crate) fn see(&mut self, balls: &[Motion], radius: f32, now: f64) {
+        self.rolling.see(balls, radius, now);
+        self.bursts.see(balls.iter().map(|ball| ball.position.as_vec2()));
+    }
+
+    /// How a ball is turned since it came into play.
+    pub(crate) fn orientation_of(&self, ball: u32) -> Quat {
+        self.rolling.orientation_of(ball)
+    }
+
+    /// Sparks that fly now. Forgets those that are out.
+    pub(crate) fn bursts(&mut self, now: f64) -> Vec<Burst> {
+        self.bursts.at(now)
+    }
+
+    /// Seconds since something great was reached, while it is cheered.
+    pub(crate) fn cheer(&self, now: f64) -> Option<f32> {
+        let since = self.cheered?;
+        (0.0..CHEER_SECONDS).contains(&(now - since)).then_some((now - since) as f32)
+    }
+
+    /// Seconds since the last tilt that was seen.
+    pub(crate) fn tilt(&self, now: f64) -> Option<f32> {
+        self.tilted.map(|since| (now - since).max(0.0) as f32)
     }
 
     /// Puts a line on the display.
@@ -172,6 +222,23 @@ mod tests {
         assert_eq!(effects.slap_of(Nudge::FromLeft, 11.0), 1.0);
         assert_eq!((effects.slap_of(Nudge::Forward, 11.0), effects.slap_of(Nudge::FromLeft, 12.0)), (0.0, 0.0));
         assert_eq!(effects.message(11.0), Some("DANGER"));
+    }
+
+    #[test]
+    fn what_is_great_is_cheered_until_it_tilts() {
+        let table = Table::shipped("classic").unwrap().unwrap();
+        let mut effects = Effects::default();
+        let mut note = |kind, now| {
+            effects.note(&GameEvent { tick: 0, kind }, &table, 1, now);
+            (effects.cheer(now + 0.5), effects.tilt(now + 0.5))
+        };
+        assert_eq!(note(GameEventKind::Lost { seat: 0 }, 1.0), (None, None));
+        let great = table.rules.messages.iter().position(|text| GREAT.iter().any(|word| text.contains(word)));
+        let great = GameEventKind::Message { place: great.unwrap() as u16 };
+        assert_eq!(note(great, 10.0), (Some(0.5), None));
+        assert_eq!(note(GameEventKind::Lost { seat: 0 }, 14.0), (None, None));
+        note(great, 20.0);
+        assert_eq!(note(GameEventKind::Tilted { seat: 0 }, 20.5), (None, Some(0.5)));
     }
 
     #[test]

@@ -7,10 +7,14 @@ use shared::physics::ball::{Ball, Instant};
 /// A ball at that moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Motion {
+    /// Which ball of the game.
+    pub(crate) id: u32,
     /// Its centre, metres.
     pub(crate) position: DVec2,
     /// m/s.
     pub(crate) velocity: DVec2,
+    /// About the playfield's normal, rad/s, counter-clockwise.
+    pub(crate) spin: f64,
     /// 0 is the playfield.
     pub(crate) floor: u8,
     /// It lies in a saucer.
@@ -21,7 +25,9 @@ impl Motion {
     /// A ball on its flight.
     pub(crate) fn of(ball: &Ball, at: Instant, tick_seconds: f64) -> Self {
         let (position, velocity) = ball.at(at, tick_seconds);
-        Self { position, velocity, floor: ball.floor, is_held: ball.saucer().is_some() }
+        let spin_rate = ball.slide.map_or(0.0, |slide| slide.spin_rate);
+        let spin = ball.spin + spin_rate * at.since(ball.flight.start, tick_seconds);
+        Self { id: ball.id, position, velocity, spin, floor: ball.floor, is_held: ball.saucer().is_some() }
     }
 }
 

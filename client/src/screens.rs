@@ -143,7 +143,7 @@ impl Standing {
         let names = &session.roster().places;
         let line = session.line();
         let Some(place) = session.place() else {
-            let is_attract = names.iter().flatten().all(|name| name == BOT) && line.is_none();
+            let is_attract = is_attract(session);
             if let Some(outcome) = session.outcome().filter(|outcome| !is_attract || outcome.own.is_some()) {
                 return Self::Over { outcome, has_place: false, line };
             }
@@ -296,8 +296,15 @@ fn result_lines(outcome: &Outcome, has_place: bool, line: Option<u16>) -> Vec<St
     lines
 }
 
+/// Whether nobody plays but the bot, and nobody waits to.
+pub(crate) fn is_attract(session: &Session) -> bool {
+    session.place().is_none()
+        && session.line().is_none()
+        && session.roster().places.iter().flatten().all(|name| name == BOT)
+}
+
 /// Whether a game has tilted, and the ball is not lost yet.
-fn has_tilted(game: &Game) -> bool {
+pub(crate) fn has_tilted(game: &Game) -> bool {
     game.tilt().tilted && matches!(game.phase(), Phase::Play { serve_in: 0, .. })
 }
 

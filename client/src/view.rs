@@ -2,7 +2,7 @@
 //!
 //! Positions are metres on the table (y up), as `f32`: the picture needs no more.
 
-use macroquad::math::Vec2;
+use macroquad::math::{Quat, Vec2};
 
 /// One frame's worth of the game.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -21,6 +21,14 @@ pub(crate) struct View {
     pub(crate) elements: Vec<ElementView>,
     /// Points that float up where they were made.
     pub(crate) popups: Vec<Popup>,
+    /// Sparks that fly where balls hit something.
+    pub(crate) bursts: Vec<Burst>,
+    /// Seconds since the game tilted, as long as its lamps are out.
+    pub(crate) tilt: Option<f32>,
+    /// Seconds since something great was reached, for as long as it is cheered.
+    pub(crate) cheer: Option<f32>,
+    /// Lights play by themselves instead of by the rules: nobody is to read them.
+    pub(crate) light_show: bool,
     /// What the display and the side panel say.
     pub(crate) hud: Hud,
     /// Somebody has dimmed the lights.
@@ -29,6 +37,12 @@ pub(crate) struct View {
     pub(crate) others: Vec<OtherBoard>,
     /// What the physics sees, while somebody wants to see it.
     pub(crate) overlay: Option<OverlayView>,
+    /// Nothing strobes or shakes: what would, fades slowly instead.
+    pub(crate) reduced_flashing: bool,
+    /// Lit inserts carry a rim and a sign, so that nobody needs to tell colours apart.
+    pub(crate) marked_lights: bool,
+    /// How large text is, 1 to 1.6; below that 1.
+    pub(crate) text_scale: f32,
     /// Seconds since the client started: for blinking and attract-mode light shows, never for physics.
     pub(crate) clock: f32,
 }
@@ -57,6 +71,37 @@ pub(crate) struct BallView {
     pub(crate) floor: u8,
     /// It lies in a saucer.
     pub(crate) held: bool,
+    /// How it is turned since it came into play: it rolls, and spins; x right, y up the table, z towards the eye.
+    pub(crate) orientation: Quat,
+}
+
+/// Sparks that fly from where a ball hit something.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Burst {
+    /// Where they come from.
+    pub(crate) position: Vec2,
+    /// The middle of the ways that they fly, of length 1; or zero: they fly in all directions.
+    pub(crate) direction: Vec2,
+    /// How hard the hit was, 0 to 1.
+    pub(crate) strength: f32,
+    /// Seconds since then.
+    pub(crate) age: f32,
+    /// What was hit.
+    pub(crate) kind: BurstKind,
+    /// Which of many bursts that look alike but are not the same.
+    pub(crate) seed: u32,
+}
+
+/// What a ball hit.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) enum BurstKind {
+    /// A wall, a rail, a flipper.
+    #[default]
+    Solid,
+    /// What kicks back: a bumper, a slingshot.
+    Kicker,
+    /// A target.
+    Target,
 }
 
 /// What an element looks like just now.

@@ -90,7 +90,8 @@ impl State {
         // 2. Whatever it does, the lowest ball stays in sight.
         if let Some(ball) = lowest(view) {
             let (least, most) = in_sight(ball, reach);
-            let kept = bottom.clamp(least, most).clamp(self.bottom - FASTEST * seconds, self.bottom + FASTEST * seconds);
+            let kept =
+                bottom.clamp(least, most).clamp(self.bottom - FASTEST * seconds, self.bottom + FASTEST * seconds);
             if kept != bottom {
                 (bottom, speed) = (kept, (kept - self.bottom) / seconds);
             }

@@ -213,6 +213,37 @@ pub(super) fn paint_in_bands(width: u16, height: u16, paint: impl Fn(&mut Canvas
     Image { width, height, bytes: bands.concat() }
 }
 
+/// A picture reduced to so many pixels, or as it is where it is smaller: each is the mean of what it covers, by area.
+pub(super) fn reduced(picture: &Image, width: u16, height: u16) -> Image {
+    let (width, height) = (width.clamp(1, picture.width.max(1)), height.clamp(1, picture.height.max(1)));
+    // What each of so many pixels covers of a side, and how much of each of that.
+    let shares = |of: u16, into: u16| -> Vec<Vec<(usize, f32)>> {
+        let step = f32::from(of) / f32::from(into);
+        let cover = |place: u16| {
+            let (from, to) = (f32::from(place) * step, (f32::from(place) + 1.0) * step);
+            let cells = from as usize..(to.ceil() as usize).min(usize::from(of));
+            cells.map(|cell| (cell, (to.min(cell as f32 + 1.0) - from.max(cell as f32)) / step)).collect()
+        };
+        (0..into).map(cover).collect()
+    };
+    let columns = shares(picture.width, width);
+    let mut bytes = Vec::with_capacity(usize::from(width) * usize::from(height) * 4);
+    for rows in shares(picture.height, height) {
+        for columns in &columns {
+            let mut sum = Vec4::ZERO;
+            for &(row, of_row) in &rows {
+                for &(column, of_column) in columns {
+                    let place = (row * usize::from(picture.width) + column) * 4;
+                    let pixel = [0, 1, 2, 3].map(|part| f32::from(picture.bytes[place + part]));
+                    sum += Vec4::from_array(pixel) * (of_row * of_column);
+                }
+            }
+            bytes.extend(sum.to_array().map(|part| (part + 0.5) as u8));
+        }
+    }
+    Image { width, height, bytes }
+}
+
 /// How much of a pixel at this distance a shape covers.
 fn coverage(distance: f32) -> f32 {
     (0.5 - distance).clamp(0.0, 1.0)
@@ -266,6 +297,16 @@ mod tests {
         let mut whole = Canvas::new(50, 77);
         paint(&mut whole);
         assert_eq!(paint_in_bands(50, 77, paint).bytes, whole.into_image().bytes);
+    }
+
+    #[test]
+    fn a_reduced_picture_is_the_mean_of_what_it_was() {
+        let bytes = [[0, 0, 0, 255], [200, 0, 0, 255], [100, 0, 0, 255], [100, 40, 0, 255]].concat();
+        let picture = Image { width: 2, height: 2, bytes };
+        assert_eq!(reduced(&picture, 1, 1).bytes, [100, 10, 0, 255]);
+        assert_eq!(reduced(&picture, 9, 9).bytes, picture.bytes);
+        let flat = Image { width: 37, height: 23, bytes: [9, 8, 7, 6].repeat(37 * 23) };
+        assert_eq!(reduced(&flat, 10, 7).bytes, [9, 8, 7, 6].repeat(70));
     }
 
     #[test]

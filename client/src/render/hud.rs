@@ -221,8 +221,9 @@ impl Writer<'_> {
     fn keys(&mut self, hud: &Hud) {
         let area = self.panels.keys;
         let area = Rect::new(area.x + self.margin(), area.y, area.w - 2.0 * self.margin(), area.h);
-        let small = self.panels.small;
         let count = hud.keys.len().max(1) as f32;
+        // As large as other text, or as there is height for. A cast saturates.
+        let small = self.fonts.fitting("", self.panels.small.min((area.h / count / f32::from(ROWS)) as u16), area.w);
         let gap = self.gap();
         let room = |key: &str| (area.w - measure(key, small).x - gap).max(0.0);
         let is_long = |(key, does): &(String, String)| measure(does, small).x > room(key);

@@ -20,6 +20,11 @@ const SHAKE: f32 = 4.0;
 /// The most that it moves in the picture, metres on the table: 8 pixels in a window of 1280 by 720.
 const MOST_SHAKE: f32 = 0.012;
 
+/// How far a table jumps at a tilt, metres on the table, how fast it swings then, 1/s, and how fast it comes to rest, 1/s.
+const JOLT: f32 = 0.011;
+const JOLT_SWING: f32 = 68.0;
+const JOLT_DAMPING: f32 = 7.0;
+
 /// Graphics cards of the oldest kind that macroquad runs on hold textures up to this size. A larger window is painted
 /// at this size and enlarged.
 const LARGEST: f32 = 4096.0;
@@ -178,11 +183,25 @@ impl Layout {
         Self { cabinet, ..self.clone() }
     }
 
+    /// The same so many seconds after a tilt: the table jumps, and swings for half a second.
+    pub(super) fn jolted(&self, seconds: f32) -> Self {
+        // Long after it there is nothing to be seen, whenever it was.
+        let seconds = seconds.clamp(0.0, 10.0);
+        let swing = JOLT * (-JOLT_DAMPING * seconds).exp() * self.scale;
+        let away = vec2((seconds * JOLT_SWING).cos(), 0.5 * (seconds * JOLT_SWING * 1.3).sin()) * swing;
+        Self { cabinet: self.cabinet.offset(away.round()), ..self.clone() }
+    }
+
     /// The pixel of a point on the table.
     pub(super) fn point(&self, metres: Vec2) -> Vec2 {
         let left = self.cabinet.x + FRAME * self.scale;
         let bottom = self.cabinet.y + (self.table.y + FRAME) * self.scale;
         vec2(left + metres.x * self.scale, bottom - metres.y * self.scale)
+    }
+
+    /// The point on the table of a pixel.
+    pub(super) fn metres(&self, pixel: Vec2) -> Vec2 {
+        (pixel - self.point(Vec2::ZERO)) * vec2(1.0, -1.0) / self.scale
     }
 
     /// The pixel of a point as written in a table file.
@@ -299,6 +318,22 @@ mod tests {
         let most = layout.shaken(vec2(9.0, 0.0)).point(Vec2::ZERO) - layout.point(Vec2::ZERO);
         assert!(most.x > 5.0 && most.x < 10.0, "{most}");
         assert_eq!(layout.shaken(Vec2::ZERO), layout);
+    }
+
+    #[test]
+    fn a_tilt_jolts_the_table_for_a_moment() {
+        let layout = Layout::new(PixelSize { width: 1280, height: 720 }, TABLE);
+        assert!(layout.jolted(0.0).point(Vec2::ZERO).distance(layout.point(Vec2::ZERO)) > 5.0);
+        for seconds in [1.0, 60.0, f32::INFINITY] {
+            assert_eq!(layout.jolted(seconds), layout, "{seconds}");
+        }
+    }
+
+    #[test]
+    fn pixels_and_metres_belong_together() {
+        let layout = Layout::new(PixelSize { width: 800, height: 600 }, TABLE).scrolled(0.1);
+        let place = vec2(0.123, 0.456);
+        assert!(layout.metres(layout.point(place)).distance(place) < 1e-5);
     }
 
     #[test]

@@ -1,18 +1,17 @@
-//! The other boards of a room, small: the same art and the same moving things at another scale, with a name and points.
+//! The other boards of a room, small: the same art, reduced, and the same moving things at another scale, with a name and points.
 
 use macroquad::color::WHITE;
 use macroquad::math::{Rect, Vec2, vec2};
-use macroquad::texture::{FilterMode, Texture2D, draw_texture};
+use macroquad::texture::draw_texture;
 use shared::table::TableFile;
 
 use super::atlas::{Batch, Sprite};
 use super::dot_matrix::Fonts;
 use super::layout::{Layout, PixelSize};
 use super::panels::Panels;
-use super::ramps::Ramps;
 use super::scene::Stage;
 use super::sprites::{self, Sprites};
-use super::{Blending, canvas, furniture, mechanisms, playfield};
+use super::{Blending, Board};
 use crate::view::View;
 
 /// A lower table than this shows nothing, pixels.
@@ -61,34 +60,21 @@ pub(super) fn slots(area: Rect, count: usize, table: Vec2, words: f32, gap: f32)
 pub(super) struct Minis {
     layout: Layout,
     panels: Panels,
-    still: Texture2D,
-    above: Option<Texture2D>,
+    board: Board,
     sprites: Sprites<Sprite>,
     fonts: Fonts,
     batch: Batch,
 }
 
 impl Minis {
-    /// Paints the art for boards as large as `slot`.
-    pub(super) fn paint(slot: Rect, table: &TableFile) -> Self {
+    /// The art for boards as large as `slot`, made of that of a large one.
+    pub(super) fn paint(slot: Rect, large: &Board, marked_lights: bool, table: &TableFile) -> Self {
         let size = PixelSize { width: slot.w as u16, height: slot.h as u16 };
         let layout = Layout::of_table(size, vec2(table.size.0 as f32, table.size.1 as f32));
-        let panels = Panels::new(&layout);
-        let texture = |picture| {
-            let texture = Texture2D::from_image(&picture);
-            texture.set_filter(FilterMode::Nearest);
-            texture
-        };
-        let still = texture(canvas::paint_in_bands(size.width, size.height, |canvas| {
-            playfield::paint(canvas, &layout, table);
-            mechanisms::paint(canvas, &layout, table, false);
-            furniture::paint(canvas, &layout, table);
-        }));
-        let ramps = Ramps::of(&layout, table);
-        let above =
-            ramps.map(|ramps| texture(canvas::paint_in_bands(size.width, size.height, |canvas| ramps.paint(canvas))));
-        let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
-        Self { layout, panels, still, above, sprites, fonts, batch }
+        let panels = Panels::new(&layout, 1.0);
+        let board = large.reduced(size);
+        let (batch, sprites, fonts) = sprites::build(&layout, &panels, marked_lights, table);
+        Self { layout, panels, board, sprites, fonts, batch }
     }
 
     /// Whether the art fits a slot.
@@ -99,12 +85,12 @@ impl Minis {
 
     /// Draws a board in its slot.
     pub(super) fn draw(&mut self, slot: Rect, table: &TableFile, view: &View, blending: &Blending) {
-        let Self { layout, panels, still, above, sprites, fonts, batch } = self;
+        let Self { layout, panels, board, sprites, fonts, batch } = self;
         blending.layer();
-        draw_texture(still, slot.x, slot.y, WHITE);
+        draw_texture(&board.still, slot.x, slot.y, WHITE);
         let layout = &layout.moved(vec2(slot.x, slot.y));
         let draw_above = || {
-            if let Some(above) = above {
+            if let Some(above) = &board.above {
                 draw_texture(above, slot.x, slot.y, WHITE);
             }
         };

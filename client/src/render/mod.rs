@@ -1,29 +1,37 @@
 //! Draws a [`View`]: the table, the panels beside it, and nothing else of the client.
 //!
 //! All art is drawn in code. What stands still is painted once for a size of the window (`cabinet`, `playfield`,
-//! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s); what moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`,
-//! `atlas`) and placed by `scene`, `mechanisms`, `overlay`, `hud` and `crowd`; `minis` does both for boards that are small. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames only.
+//! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s): the room, and the whole table, which is shown through an
+//! opening and scrolls if it is longer. What moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`, `atlas`) and
+//! placed by `scene`, `balls`, `mechanisms`, `flashes`, `overlay`, `hud` and `crowd`, as `lights`, `sparks` and `popups` say;
+//! `minis` does both for boards that are small. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames
+//! only.
 
 mod atlas;
 mod back_buffer;
+mod balls;
 mod cabinet;
 mod camera;
 mod canvas;
 mod crowd;
 mod dot_matrix;
+mod flashes;
 mod furniture;
 mod hud;
 mod inserts;
 mod layout;
+mod lights;
 mod mechanisms;
 mod minis;
 mod overlay;
 mod palette;
 mod panels;
 mod playfield;
+mod popups;
 mod ramps;
 mod scene;
 mod shape;
+mod sparks;
 mod sprites;
 
 use macroquad::color::WHITE;
@@ -59,8 +67,26 @@ pub(crate) struct Renderer {
     art: Option<Art>,
 }
 
+/// What a person asks of the picture, as far as it is painted once.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Comfort {
+    marked_lights: bool,
+    text_scale: f32,
+}
+
+impl Comfort {
+    fn of(view: &View) -> Self {
+        let text_scale = if view.text_scale > 1.0 { view.text_scale.min(LARGEST_TEXT) } else { 1.0 };
+        Self { marked_lights: view.marked_lights, text_scale }
+    }
+}
+
+/// How much larger than usual text can be.
+const LARGEST_TEXT: f32 = 1.6;
+
 /// What was painted for one size of the window.
 struct Art {
+    comfort: Comfort,
     layout: Layout,
     panels: Panels,
     /// The room and the panels.
@@ -78,6 +104,8 @@ struct Board {
     still: Texture2D,
     /// What of it lies above balls on the board, on a clear ground.
     above: Option<Texture2D>,
+    /// The same two as they were painted: small boards are made of them.
+    pictures: (Image, Option<Image>),
 }
 
 /// Why a frame was given up before it was whole.
@@ -107,8 +135,9 @@ impl Renderer {
         // 1. The art for the window's size.
         let dpi_scale = screen_dpi_scale();
         let size = PixelSize::of_window(screen_width() * dpi_scale, screen_height() * dpi_scale);
-        let current = art.take().filter(|art| art.layout.size == size);
-        let art = art.insert(current.unwrap_or_else(|| Art::paint(size, table)));
+        let comfort = Comfort::of(view);
+        let current = art.take().filter(|art| art.layout.size == size && art.comfort == comfort);
+        let art = art.insert(current.unwrap_or_else(|| Art::paint(size, comfort, table)));
 
         // 2. The frame, whole, into the back buffer.
         let bottom = camera.follow(view, art.layout.reach());
@@ -141,8 +170,12 @@ fn paint_frame(
     if counts.0 != counts.1 {
         return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
     }
-    let Art { layout: resting, panels, room, board, sprites, fonts, batch, minis } = art;
-    let layout = &resting.scrolled(bottom).shaken(view.cabinet);
+    let Art { comfort, layout: resting, panels, room, board, sprites, fonts, batch, minis } = art;
+    let layout = &match (view.reduced_flashing, view.tilt) {
+        (true, _) => resting.scrolled(bottom),
+        (false, None) => resting.scrolled(bottom).shaken(view.cabinet),
+        (false, Some(seconds)) => resting.scrolled(bottom).shaken(view.cabinet).jolted(seconds),
+    };
     let corner = layout.cabinet.point();
 
     // 1. What stands still covers every pixel of the last frame.
@@ -188,23 +221,25 @@ fn paint_frame(
     // 6. The boards that are small.
     for (slot, other) in slots.iter().zip(&view.others) {
         let current = minis.take().filter(|minis| minis.fits(slot.board));
-        let minis = minis.insert(current.unwrap_or_else(|| Minis::paint(slot.board, table)));
-        minis.draw(slot.board, table, &other.view, blending);
+        let minis =
+            minis.insert(current.unwrap_or_else(|| Minis::paint(slot.board, board, comfort.marked_lights, table)));
+        let shown = View { reduced_flashing: view.reduced_flashing, ..other.view.clone() };
+        minis.draw(slot.board, table, &shown, blending);
     }
     Ok(())
 }
 
 impl Art {
     /// Paints everything for a size of the window.
-    fn paint(size: PixelSize, table: &TableFile) -> Self {
+    fn paint(size: PixelSize, comfort: Comfort, table: &TableFile) -> Self {
         let layout = Layout::new(size, vec2(table.size.0 as f32, table.size.1 as f32));
-        let panels = Panels::new(&layout);
+        let panels = Panels::new(&layout, comfort.text_scale);
         let room = still_texture(&canvas::paint_in_bands(size.width, size.height, |canvas| {
             cabinet::paint(canvas, &layout, &panels);
         }));
         let board = Board::paint(&layout.of_board(), table);
-        let (batch, sprites, fonts) = sprites::build(&layout, &panels, table);
-        Self { layout, panels, room, board, sprites, fonts, batch, minis: None }
+        let (batch, sprites, fonts) = sprites::build(&layout, &panels, comfort.marked_lights, table);
+        Self { comfort, layout, panels, room, board, sprites, fonts, batch, minis: None }
     }
 }
 
@@ -220,7 +255,19 @@ impl Board {
         });
         let ramps = Ramps::of(layout, table);
         let above = ramps.map(|ramps| canvas::paint_in_bands(width, height, |canvas| ramps.paint(canvas)));
-        Self { still: still_texture(&still), above: above.as_ref().map(still_texture) }
+        Self::of((still, above))
+    }
+
+    /// Of what was painted.
+    fn of(pictures: (Image, Option<Image>)) -> Self {
+        Self { still: still_texture(&pictures.0), above: pictures.1.as_ref().map(still_texture), pictures }
+    }
+
+    /// The same at another size, smaller: made within milliseconds, where painting anew would hold up the game.
+    fn reduced(&self, size: PixelSize) -> Self {
+        let reduced = |picture: &Image| canvas::reduced(picture, size.width, size.height);
+        let (still, above) = &self.pictures;
+        Self::of((reduced(still), above.as_ref().map(reduced)))
     }
 }
 

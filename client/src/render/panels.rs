@@ -34,8 +34,8 @@ pub(super) struct Panels {
 }
 
 impl Panels {
-    /// Divides the panels of a layout.
-    pub(super) fn new(layout: &Layout) -> Self {
+    /// Divides the panels of a layout, for text that is so many times as large as usual.
+    pub(super) fn new(layout: &Layout, text_scale: f32) -> Self {
         let narrow = layout.main_panel.w.min(layout.side_panel.w);
         let short = layout.main_panel.h.min(layout.side_panel.h);
         let padding = (narrow * 0.025).min(short * 0.03).round().clamp(2.0, 24.0);
@@ -45,7 +45,10 @@ impl Panels {
         // Text of 5 by 7 pixels is hard to read: twice that wherever 16 letters fit.
         let roomy = (main.w.min(side.w) / 180.0).min(main.h / 100.0).floor();
         let readable = if main.w.min(side.w) >= 190.0 && main.h >= 90.0 { 2.0 } else { 1.0 };
-        let small = roomy.max(readable) as u16;
+        let usual = roomy.max(readable);
+        // Fourteen letters beside each other, and four seats below each other, are the least that must fit.
+        let most = (main.w.min(side.w) / f32::from(14 * ADVANCE)).min(main.h / f32::from(USUAL_SEATS * (ROWS + 4) * 2));
+        let small = (usual * text_scale).round().min(most.floor()).max(usual) as u16;
         let medium = small + small.div_ceil(2);
         let row = |pitch: u16| f32::from(pitch * ROWS);
 
@@ -77,7 +80,7 @@ impl Panels {
         let onlookers = Rect::new(side.x, rest_top, side.w, (keys.y - padding - rest_top).max(0.0));
 
         let banner = fitting(layout.playfield().w * 0.86, 9).clamp(1, 16);
-        let popup = ((layout.scale / 330.0).round() as u16).clamp(1, 8);
+        let popup = ((layout.scale / 330.0 * text_scale).round() as u16).clamp(1, 8);
         let title = Rect::new(main.x, main.y, main.w, title_height);
         Self { title, scores, message, counters, onlookers, keys, small, medium, score, banner, popup, padding }
     }
@@ -90,8 +93,8 @@ impl Panels {
     /// Every distance between dots that text may be set in; some smaller ones too, for text that is too long.
     pub(super) fn pitches(&self) -> impl Iterator<Item = u16> {
         let used = [self.small, self.medium, self.medium + 1, self.score, self.banner, self.popup];
-        let smaller = [(self.small - 1).max(1), self.score - self.score / 4, self.banner.div_ceil(2)];
-        used.into_iter().chain(smaller).chain([self.banner - self.banner / 4])
+        let smaller = [self.score - self.score / 4, self.banner.div_ceil(2), self.banner - self.banner / 4];
+        used.into_iter().chain(smaller).chain((self.small / 2).max(1)..self.small)
     }
 }
 
@@ -133,13 +136,27 @@ mod tests {
     use super::super::layout::PixelSize;
     use super::*;
 
+    const SCALES: [f32; 3] = [1.0, 1.3, 1.6];
+
+    #[test]
+    fn text_grows_where_there_is_room_and_never_shrinks() {
+        for (width, height) in [(500, 900), (800, 600), (1280, 400), (1280, 720), (1920, 1080), (3840, 2160)] {
+            let layout = Layout::new(PixelSize { width, height }, vec2(0.514, 1.067));
+            let [usual, _, largest] = SCALES.map(|scale| Panels::new(&layout, scale));
+            assert!(largest.small >= usual.small && largest.popup >= usual.popup, "{width} x {height}");
+            if width >= 1280 && height >= 720 {
+                assert!(largest.small > usual.small && largest.popup > usual.popup, "{width} x {height}");
+            }
+        }
+    }
+
     /// Name and points of each seat at least share a line, and no line is drawn over another: see the display of scores.
     #[test]
     fn the_scores_of_four_have_room_in_every_usual_window() {
-        for (width, height) in
-            [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080), (3840, 2160), (900, 1400)]
-        {
-            let panels = Panels::new(&Layout::new(PixelSize { width, height }, vec2(0.514, 1.067)));
+        let sizes = [(640, 480), (800, 600), (1024, 768), (1280, 720), (1920, 1080), (3840, 2160), (900, 1400)];
+        for ((width, height), text_scale) in sizes.into_iter().flat_map(|size| SCALES.map(|scale| (size, scale))) {
+            let layout = Layout::new(PixelSize { width, height }, vec2(0.514, 1.067));
+            let panels = Panels::new(&layout, text_scale);
             let lines = f32::from(USUAL_SEATS) * f32::from(panels.small * (ROWS + 4));
             let margin = (panels.padding * 1.2).round();
             let room = panels.scores.h - 2.0 * margin;
@@ -150,9 +167,10 @@ mod tests {
     #[test]
     fn parts_are_inside_their_panels() {
         let sides = [1, 200, 480, 600, 720, 900, 1280, 1920, 4000];
-        for (width, height) in sides.into_iter().flat_map(|width| sides.map(|height| (width, height))) {
+        let sizes = sides.into_iter().flat_map(|width| sides.map(|height| (width, height)));
+        for ((width, height), text_scale) in sizes.flat_map(|size| SCALES.map(|scale| (size, scale))) {
             let layout = Layout::new(PixelSize { width, height }, vec2(0.514, 1.067));
-            let panels = Panels::new(&layout);
+            let panels = Panels::new(&layout, text_scale);
             let mains = [panels.title, panels.scores, panels.message].map(|part| (part, layout.main_panel));
             let sides = [panels.onlookers, panels.keys].into_iter().chain(panels.counters);
             for (part, panel) in mains.into_iter().chain(sides.map(|part| (part, layout.side_panel))) {

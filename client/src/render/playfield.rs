@@ -2,10 +2,10 @@
 
 use macroquad::math::{Rect, Vec2, Vec3, vec2};
 use shared::table::TableFile;
-use shared::table::format::{ElementFile, LightColor, LineFile, PlungerFile};
+use shared::table::format::{ElementFile, LightColor, LineFile, PlungerFile, Point};
 
 use super::canvas::{Canvas, LIGHT, clouds, glow, hills, ink, noise, smooth};
-use super::inserts::{arrow_ahead, insert_shape, middle};
+use super::inserts::{arrow_ahead, insert_shape, metres, middle};
 use super::layout::Layout;
 use super::palette::{self, AMBER, DECOR, DUSK, NIGHT, STEEL, WOOD, WOOD_DARK};
 use super::shape::{Shape, star};
@@ -15,7 +15,10 @@ pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
     let focus = focus(layout, table);
     ground(canvas, layout, focus);
     decor(canvas, layout, focus);
-    planets(canvas, layout);
+    for (center, seed) in pools(layout, focus).into_iter().zip(1..) {
+        constellation(canvas, layout, center, seed);
+    }
+    planets(canvas, layout, focus);
     emblem(canvas, layout, table);
     for element in &table.elements {
         match element {
@@ -35,29 +38,81 @@ pub(super) fn paint(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
     }
 }
 
-/// Where the eye should go first: the middle of the bumpers, or somewhat above the middle of the table.
+/// Bumpers within this distance of one belong to its group, metres.
+const GROUP: f64 = 0.25;
+
+/// Where the eye should go first: the middle of the largest group of bumpers, or somewhat above the middle of the table.
 fn focus(layout: &Layout, table: &TableFile) -> Vec2 {
-    let centers = table.elements.iter().filter_map(|element| match element {
-        ElementFile::Bumper(bumper) => Some(layout.written(bumper.center)),
+    let bumper = |element: &ElementFile| match element {
+        ElementFile::Bumper(bumper) => Some(bumper.center),
         _ => None,
-    });
-    let (sum, count) = centers.fold((Vec2::ZERO, 0.0), |(sum, count), center| (sum + center, count + 1.0));
-    if count > 0.0 { sum / count } else { layout.written((table.size.0 / 2.0, table.size.1 * 0.65)) }
+    };
+    let centers: Vec<Point> = table.elements.iter().filter_map(bumper).collect();
+    let group = |around: Point| {
+        let is_near = move |center: &&Point| metres(**center).distance(metres(around)) < GROUP as f32;
+        centers.iter().filter(is_near).map(|center| layout.written(*center))
+    };
+    let Some(&best) = centers.iter().max_by_key(|center| group(**center).count()) else {
+        return layout.written((table.size.0 / 2.0, table.size.1 * 0.65));
+    };
+    group(best).sum::<Vec2>() / group(best).count() as f32
+}
+
+/// The middles of further light and decor on a table so long that the focus is far from its ends.
+fn pools(layout: &Layout, focus: Vec2) -> Vec<Vec2> {
+    let field = layout.playfield();
+    let lower = lower_light(layout);
+    let between = |from: Vec2, to: Vec2| {
+        // A cast saturates.
+        let count = ((to.y - from.y) / (field.w * 1.1) - 0.5).max(0.0) as u8;
+        (1..=count).map(move |place| from.lerp(to, f32::from(place) / f32::from(count + 1)))
+    };
+    let upper = vec2(field.center().x, field.y);
+    between(upper, focus).chain(between(focus, lower)).collect()
+}
+
+/// The middle of the twilight at the lower end.
+fn lower_light(layout: &Layout) -> Vec2 {
+    let field = layout.playfield();
+    vec2(field.center().x, field.bottom() - field.w * 0.58)
 }
 
 /// Dark blue, lit from the focus, with the lower end in twilight.
 fn ground(canvas: &mut Canvas, layout: &Layout, focus: Vec2) {
     let field = layout.playfield();
-    let lower = vec2(field.center().x, field.y + field.h * 0.72);
+    let unit = field.w;
+    let mut dim = pools(layout, focus);
+    dim.push(lower_light(layout));
     canvas.wash(field, |p| {
-        let near = 1.0 - smooth(0.0, field.h * 0.52, p.distance(focus));
-        let low = 1.0 - smooth(0.0, field.h * 0.34, ((p - lower) * vec2(1.0, 0.8)).length());
-        let lit = (near * 0.85 + low * 0.42).min(1.0);
+        let near = 1.0 - smooth(0.0, unit * 1.08, p.distance(focus));
+        let low = |center: &Vec2| 1.0 - smooth(0.0, unit * 0.71, ((p - *center) * vec2(1.0, 0.8)).length());
+        let lit = (near * 0.85 + dim.iter().map(low).fold(0.0, f32::max) * 0.42).min(1.0);
         // A hint of violet nebula, so that the blue is not flat.
-        let cloud = clouds(p / (field.w * 0.22));
+        let cloud = clouds(p / (unit * 0.22));
         let violet = Vec3::new(0.10, 0.02, 0.13) * smooth(0.42, 0.8, cloud) * (0.35 + 0.65 * lit);
         ink(NIGHT.lerp(DUSK, lit * (0.75 + 0.25 * cloud)) + violet, 1.0)
     });
+}
+
+/// Painted stars, joined by lines: for the parts of a long table that have no other decor.
+fn constellation(canvas: &mut Canvas, layout: &Layout, center: Vec2, seed: i32) {
+    let unit = layout.playfield().w;
+    const STARS: u8 = 7;
+    let star_at = |place: u8| {
+        let chance = |of: i32| noise(seed * 16 + of, i32::from(place) + 3) - 0.5;
+        let along = (f32::from(place) / f32::from(STARS - 1) - 0.5) * 0.62;
+        center + vec2(along + 0.06 * chance(1), 0.34 * chance(2) - along * 0.35) * unit
+    };
+    for place in 1..STARS {
+        let line = Shape::rod(star_at(place - 1), star_at(place), (unit * 0.0016).max(0.5));
+        canvas.flat(&line, ink(DECOR, 0.30));
+    }
+    for place in 0..STARS {
+        let size = unit * (0.016 + 0.012 * noise(seed, i32::from(place)));
+        let sign = star(star_at(place), 5, size, size * 0.42, 0.0);
+        canvas.halo(&sign, size * 1.6, DECOR, 0.30);
+        canvas.flat(&sign, ink(AMBER.lerp(DECOR, 0.45), 0.55));
+    }
 }
 
 /// A great star behind the bumpers, its rays, orbits around it and a sky of small stars. All fainter than anything
@@ -107,8 +162,8 @@ fn decor(canvas: &mut Canvas, layout: &Layout, focus: Vec2) {
     }
 }
 
-/// The limb of a planet that rises behind the flippers, and a small ringed one higher up.
-fn planets(canvas: &mut Canvas, layout: &Layout) {
+/// The limb of a planet that rises behind the flippers, and a small ringed one below the focus.
+fn planets(canvas: &mut Canvas, layout: &Layout, focus: Vec2) {
     let field = layout.playfield();
     let unit = field.w;
 
@@ -137,7 +192,7 @@ fn planets(canvas: &mut Canvas, layout: &Layout) {
         glow(Vec3::new(0.35, 0.62, 1.0), 0.42 * (outside * inside).powi(2) * side)
     });
 
-    let center = vec2(field.x + unit * 0.66, field.y + field.h * 0.49);
+    let center = focus + vec2(0.20, 0.347) * unit;
     let radius = unit * 0.058;
     canvas.halo(&Shape::circle(center, radius), radius * 1.4, DECOR, 0.10);
     canvas.fill(&Shape::circle(center, radius), |p, _| {
@@ -160,7 +215,7 @@ fn planets(canvas: &mut Canvas, layout: &Layout) {
 
 /// A ring with a star on the open floor between the slingshots.
 fn emblem(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
-    let pivots: Vec<Vec2> = table
+    let mut pivots: Vec<Vec2> = table
         .elements
         .iter()
         .filter_map(|element| match element {
@@ -168,7 +223,9 @@ fn emblem(canvas: &mut Canvas, layout: &Layout, table: &TableFile) {
             _ => None,
         })
         .collect();
-    let [first, .., last] = pivots.as_slice() else { return };
+    // Those of the two lowest flippers: others stand higher up.
+    pivots.sort_by(|a, b| b.y.total_cmp(&a.y));
+    let [first, last, ..] = pivots.as_slice() else { return };
     let unit = layout.playfield().w;
     let center = (*first + *last) / 2.0 - vec2(0.0, unit * 0.33);
     let radius = unit * 0.13;

@@ -1,5 +1,5 @@
-//! The moving picture over the static art: lights, targets, flippers, balls, points that float up. Drawn from the
-//! [`View`] alone; nothing is remembered from frame to frame.
+//! The moving picture over the static art: lights, targets, slingshots, plungers, flippers, bumpers. Drawn from the
+//! [`View`] alone; nothing is remembered from frame to frame. Balls are in `balls`, what flies above in `flashes`.
 
 use macroquad::color::WHITE;
 use macroquad::math::{Rect, Vec2, Vec3, vec2};
@@ -8,14 +8,15 @@ use shared::table::format::{ElementFile, FlipperFile, Hand, LineFile, PlungerFil
 
 use super::atlas::{Batch, Sprite};
 use super::canvas::LIGHT;
-use super::dot_matrix::{Fonts, measure};
-use super::inserts::middle;
+use super::dot_matrix::Fonts;
+use super::inserts::{metres, middle};
 use super::layout::Layout;
+use super::lights::{self, Insert};
 use super::palette::{self, AMBER, ICE, IVORY, NIGHT, RED, RUBBER, STEEL, shine, tint};
 use super::panels::Panels;
 use super::ramps::floor_of;
 use super::sprites::{Own, Pinned, Sprites};
-use crate::view::{BallView, ElementView, Popup, View};
+use crate::view::{ElementView, View};
 
 /// What the scene is drawn with.
 pub(super) struct Stage<'a> {
@@ -27,20 +28,12 @@ pub(super) struct Stage<'a> {
     pub(super) batch: &'a mut Batch,
 }
 
-/// A ball faster than this draws a streak, m/s.
-const STREAK_SPEED: f32 = 0.7;
-/// A streak is as long as the way of a ball in this time, seconds.
-const STREAK_TIME: f32 = 0.040;
-
-/// How much of the light is gone when somebody has dimmed it.
+/// How much of the light is gone when somebody has dimmed it, and when the lamps are out.
 const DIMMED: f32 = 0.80;
+const OUT: f32 = 0.58;
 
-/// How much larger a ball looks for each floor that it is nearer to the eye.
-const NEARER: f32 = 1.08;
-/// Floors above this one look no nearer.
-const HIGHEST: u8 = 3;
-/// How far a ball's shadow falls, in radii: of one on the board, and more for each floor above.
-const SHADOW: (f64, f64) = (0.55, 1.1);
+/// Share of its flash in which a target falls.
+const FALL: f32 = 0.45;
 
 impl Stage<'_> {
     /// Draws everything on the table, from the board upwards; `draw_above` draws what stands still over the balls on it.
@@ -48,8 +41,10 @@ impl Stage<'_> {
         // 1. What is level with the board.
         for (index, (element, state)) in self.table.elements.iter().zip(&view.elements).enumerate() {
             match element {
-                ElementFile::Light(light) if shows_lit(view, index, *state, light.center) => {
-                    self.lit_insert(index, light.center, palette::light(light.color));
+                ElementFile::Light(light) => {
+                    let insert = Insert { index, center: metres(light.center), table: metres(self.table.size) };
+                    let brightness = lights::brightness(view, insert, *state);
+                    self.lit_insert(index, light.center, palette::light(light.color), brightness);
                 }
                 ElementFile::Magnet(magnet) if state.lit => self.magnet(magnet, view.clock),
                 ElementFile::Rollover(line) => self.rollover(line, state.flash),
@@ -68,14 +63,13 @@ impl Stage<'_> {
         self.batch.flush();
         draw_above();
         self.floor(view, true);
-        if view.dimmed {
-            self.batch.stretch(self.sprites.dot, self.layout.seen_playfield(), tint(Vec3::ZERO, DIMMED));
+        let out = view.tilt.map_or(0.0, |seconds| OUT * lights::lamps_out(seconds, view.reduced_flashing));
+        let dark = out.max(if view.dimmed { DIMMED } else { 0.0 });
+        if dark > 0.0 {
+            self.batch.stretch(self.sprites.dot, self.layout.seen_playfield(), tint(Vec3::ZERO, dark));
         }
-        // 4. What floats above.
-        self.slaps(view.slaps);
-        for popup in &view.popups {
-            self.popup(popup);
-        }
+        // 4. What flies and floats above.
+        self.flashes(view);
     }
 
     /// What stands on the board, or above it, and the balls there.
@@ -131,25 +125,15 @@ impl Stage<'_> {
         }
     }
 
-    /// Light along the side of the table that a hand slaps: left, right, below.
-    fn slaps(&mut self, [left, right, below]: [f32; 3]) {
-        let field = self.layout.seen_playfield();
-        let reach = field.w * 0.16;
-        let tall = |x: f32| Rect::new(x - reach / 2.0, field.y + field.h * 0.45, reach, field.h * 0.5);
-        let wide = Rect::new(field.x + field.w * 0.2, field.bottom() - reach / 2.0, field.w * 0.6, reach);
-        for (area, strength) in [(tall(field.x), left), (tall(field.right()), right), (wide, below)] {
-            if strength > 0.0 {
-                self.batch.stretch(self.sprites.halo, area, shine(AMBER, 0.8 * strength));
-            }
+    fn lit_insert(&mut self, index: usize, center: (f64, f64), color: Vec3, brightness: f32) {
+        if brightness <= 0.0 {
+            return;
         }
-    }
-
-    fn lit_insert(&mut self, index: usize, center: (f64, f64), color: Vec3) {
         let Some(Own::Light(Pinned { sprite, pivot })) = self.sprites.own.get(index) else { return };
         let center = self.layout.written(center);
         let reach = sprite.size.max_element() * 2.3;
-        self.glow(center, reach, color, 0.62);
-        self.batch.turned(*sprite, *pivot, center, 0.0, WHITE);
+        self.glow(center, reach, color, 0.62 * brightness);
+        self.batch.turned(*sprite, *pivot, center, 0.0, tint(Vec3::ONE, brightness));
     }
 
     /// Round light of a diameter.
@@ -165,21 +149,26 @@ impl Stage<'_> {
         }
     }
 
-    /// A standing target is a bright face with a dark back; a fallen one leaves a slot.
+    /// A standing target is a bright face with a dark back; one that falls sinks into its slot and leaves it dark.
     fn drop_target(&mut self, target: &TargetFile, state: ElementView) {
         let (from, to) = (self.layout.written(target.from), self.layout.written(target.to));
         let width = self.layout.length(0.0060).max(3.0);
         let bar = self.sprites.bar;
-        if state.down {
+        let sunk = if state.down { ((1.0 - state.flash) / FALL).clamp(0.0, 1.0) } else { 0.0 };
+        if sunk > 0.0 {
             self.batch.bar(bar, from, to, width * 0.8, tint(Vec3::ZERO, 0.85));
             self.batch.bar(bar, from, to, width * 0.25, tint(ICE * 0.35, 0.9));
-        } else {
-            let drop = -LIGHT * self.layout.length(0.0050);
-            self.batch.bar(bar, from + drop, to + drop, width * 1.25, tint(Vec3::ZERO, 0.5));
+        }
+        if sunk < 1.0 {
+            let up = 1.0 - sunk;
+            let drop = -LIGHT * self.layout.length(0.0050) * up;
+            let width = width * (0.35 + 0.65 * up);
+            self.batch.bar(bar, from + drop, to + drop, width * 1.25, tint(Vec3::ZERO, 0.5 * up));
             self.batch.bar(bar, from, to, width * 1.25, tint(NIGHT, 1.0));
-            self.batch.bar(bar, from, to, width, tint(ICE.lerp(IVORY, 0.15 + 0.85 * state.flash), 1.0));
+            let face = ICE.lerp(IVORY, 0.15 + 0.85 * state.flash) * (0.4 + 0.6 * up);
+            self.batch.bar(bar, from, to, width, tint(face, 1.0));
             let (a, b) = (from.lerp(to, 0.30), from.lerp(to, 0.70));
-            self.batch.bar(bar, a, b, width * 0.55, tint(RED, 1.0));
+            self.batch.bar(bar, a, b, width * 0.55, tint(RED * (0.4 + 0.6 * up), 1.0));
         }
         if state.flash > 0.0 {
             let size = self.layout.length(0.075);
@@ -270,24 +259,6 @@ impl Stage<'_> {
         }
     }
 
-    fn ball_shadow(&mut self, ball: BallView) {
-        let height = self.table.ball.radius * (SHADOW.0 + SHADOW.1 * f64::from(ball.floor.min(HIGHEST)));
-        let at = self.layout.point(ball.position) - LIGHT * self.layout.length(height);
-        self.batch.scaled(self.sprites.ball_shadow, at, nearness(ball));
-    }
-
-    fn ball(&mut self, ball: BallView) {
-        let at = self.layout.point(ball.position);
-        let speed = ball.velocity.length();
-        if speed > STREAK_SPEED {
-            let way = ball.velocity * vec2(1.0, -1.0) * self.layout.scale;
-            let width = self.layout.length(self.table.ball.radius * 2.0);
-            let strength = ((speed - STREAK_SPEED) / 1.5).min(1.0) * 0.5;
-            self.batch.bar(self.sprites.streak, at - way * STREAK_TIME, at, width, shine(ICE, strength));
-        }
-        self.batch.scaled(self.sprites.ball, at, nearness(ball));
-    }
-
     fn bumper(&mut self, index: usize, center: Vec2, flash: f32) {
         let Some(Own::Bumper { cap, flare }) = self.sprites.own.get(index) else { return };
         if flash > 0.0 {
@@ -301,32 +272,4 @@ impl Stage<'_> {
             self.glow(center, cap.size.x * 1.5, AMBER, flash * 0.55);
         }
     }
-
-    fn popup(&mut self, popup: &Popup) {
-        let age = popup.age.clamp(0.0, 1.0);
-        let pitch = self.panels.popup;
-        let size = measure(&popup.text, pitch);
-        let field = self.layout.seen_playfield();
-        let rise = vec2(0.0, self.layout.length(0.026 + 0.05 * f64::from(age)));
-        let mut corner = self.layout.point(popup.position) - rise - size / 2.0;
-        corner.x = corner.x.clamp(field.x, (field.right() - size.x).max(field.x));
-        let alpha = (1.6 * (1.0 - age)).min(1.0);
-        let dark = vec2(f32::from(pitch) * 0.75, f32::from(pitch) * 0.75).ceil();
-        self.fonts.line(self.batch, &popup.text, corner + dark, pitch, tint(Vec3::ZERO, alpha * 0.7));
-        self.fonts.line(self.batch, &popup.text, corner, pitch, tint(AMBER.lerp(Vec3::ONE, 0.35), alpha));
-    }
-}
-
-/// How large a ball looks beside one on the board.
-fn nearness(ball: BallView) -> f32 {
-    NEARER.powi(i32::from(ball.floor.min(HIGHEST)))
-}
-
-/// Whether an insert shines: as the rules say in a game, in waves that run up the table while nobody plays.
-fn shows_lit(view: &View, index: usize, state: ElementView, center: (f64, f64)) -> bool {
-    if view.hud.ball > 0 {
-        return state.lit;
-    }
-    let wave = (view.clock * 2.6 - center.1 as f32 * 9.0 + (index % 3) as f32 * 0.4).sin();
-    wave > 0.35
 }

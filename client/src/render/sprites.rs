@@ -3,7 +3,7 @@
 use macroquad::math::{Rect, Vec2, Vec3, Vec4, vec2};
 use macroquad::texture::Image;
 use shared::table::TableFile;
-use shared::table::format::{ElementFile, FlipperFile, Hand};
+use shared::table::format::{ElementFile, FlipperFile, Hand, LightColor};
 
 use super::atlas::{Batch, Packer, Sprite, Ticket};
 use super::canvas::{Canvas, LIGHT, glow, ink, smooth};
@@ -56,7 +56,12 @@ pub(super) struct Sprites<S> {
 }
 
 /// Paints sprites and fonts, and makes the batch that draws them.
-pub(super) fn build(layout: &Layout, panels: &Panels, table: &TableFile) -> (Batch, Sprites<Sprite>, Fonts) {
+pub(super) fn build(
+    layout: &Layout,
+    panels: &Panels,
+    marked_lights: bool,
+    table: &TableFile,
+) -> (Batch, Sprites<Sprite>, Fonts) {
     let mut packer = Packer::default();
     let fonts = FontTickets::paint(&mut packer, panels.pitches());
     let ball_radius = layout.length(table.ball.radius);
@@ -73,27 +78,35 @@ pub(super) fn build(layout: &Layout, panels: &Panels, table: &TableFile) -> (Bat
         })),
         streak: packer.add(streak()),
         plate: packer.add(plate(banner_area(layout, panels))),
-        own: table.elements.iter().map(|element| own(&mut packer, layout, table, element)).collect(),
+        own: table.elements.iter().map(|element| own(&mut packer, layout, marked_lights, table, element)).collect(),
     };
     let (picture, sprite) = packer.pack();
     let batch = Batch::new(&picture);
     (batch, tickets.resolve(&sprite), fonts.resolve(&sprite))
 }
 
-/// Where the banner's plate stands: across the playfield, above its middle.
+/// Where the banner's plate stands: across the playfield, between its middle and the flippers: there is the least to be
+/// hidden.
 pub(super) fn banner_area(layout: &Layout, panels: &Panels) -> Rect {
     let field = layout.seen_playfield();
     let height = f32::from(panels.banner) * 22.0;
     let width = (field.w * 0.96).round();
-    Rect::new((field.center().x - width / 2.0).round(), (field.y + field.h * 0.44).round(), width, height.round())
+    Rect::new((field.center().x - width / 2.0).round(), (field.y + field.h * 0.585).round(), width, height.round())
 }
 
-fn own(packer: &mut Packer, layout: &Layout, table: &TableFile, element: &ElementFile) -> Own<Ticket> {
+fn own(
+    packer: &mut Packer,
+    layout: &Layout,
+    marked_lights: bool,
+    table: &TableFile,
+    element: &ElementFile,
+) -> Own<Ticket> {
     match element {
         ElementFile::Light(light) => {
             let shape = insert_shape(layout, table, light);
             let center = layout.written(light.center);
-            Own::Light(lit_insert(packer, &shape, center, palette::light(light.color)))
+            let mark = marked_lights.then_some(light.color);
+            Own::Light(lit_insert(packer, &shape, center, palette::light(light.color), mark))
         }
         ElementFile::Bumper(bumper) => {
             let radius = layout.length(bumper.radius);
@@ -206,20 +219,49 @@ fn plate(area: Rect) -> Image {
     canvas.into_image()
 }
 
-/// A lit insert: white hot in the middle, its own colour at the rim.
-fn lit_insert(packer: &mut Packer, shape: &Shape, center: Vec2, color: Vec3) -> Pinned<Ticket> {
+/// A lit insert: white hot in the middle, its own colour at the rim; marked, with a white ring around it and a dark sign in it.
+fn lit_insert(
+    packer: &mut Packer,
+    shape: &Shape,
+    center: Vec2,
+    color: Vec3,
+    mark: Option<LightColor>,
+) -> Pinned<Ticket> {
     let bounds = shape.bounds();
-    let corner = vec2(bounds.x, bounds.y).floor() - 2.0;
-    let side = (vec2(bounds.right(), bounds.bottom()).ceil() + 2.0 - corner).as_uvec2();
-    let mut canvas = Canvas::new(side.x as usize, side.y as usize);
     let reach = bounds.w.max(bounds.h) / 2.0;
+    let ring = if mark.is_some() { (reach * 0.34).max(2.0) } else { 0.0 };
+    let margin = (ring * 1.5).ceil() + 2.0;
+    let corner = vec2(bounds.x, bounds.y).floor() - margin;
+    let side = (vec2(bounds.right(), bounds.bottom()).ceil() + margin - corner).as_uvec2();
+    let sign = mark.and_then(|color| sign(center, reach * 0.5, color));
+    let mut canvas = Canvas::new(side.x as usize, side.y as usize);
     canvas.wash(Rect::new(0.0, 0.0, side.x as f32, side.y as f32), |p| {
         let p = p + corner;
-        let cover = (0.5 - shape.distance(p)).clamp(0.0, 1.0);
+        let distance = shape.distance(p);
+        let cover = |distance: f32| (0.5 - distance).clamp(0.0, 1.0);
         let hot = smooth(reach * 0.85, 0.0, p.distance(center));
-        ink(color.lerp(Vec3::ONE, hot * 0.72), cover)
+        let glass = ink(color.lerp(Vec3::ONE, hot * 0.72), cover(distance));
+        // A dark gap sets the ring off from the glass.
+        let gap = ring * 0.4;
+        let is_ringed = f32::from(u8::from(ring > 0.0));
+        let around = ink(Vec3::ONE, is_ringed * cover((distance - gap - ring / 2.0).abs() - ring / 2.0));
+        let dark = sign.as_ref().map_or(0.0, |sign| cover(sign.distance(p))) * 0.9;
+        glass * (1.0 - dark) + ink(NIGHT, dark) + around
     });
     Pinned { sprite: packer.add(canvas.into_image()), pivot: center - corner }
+}
+
+/// The sign of a colour: white has none, amber a dot, red a bar upright, green one that lies, blue a cross.
+fn sign(center: Vec2, reach: f32, color: LightColor) -> Option<Shape> {
+    let thin = (reach * 0.34).max(1.0);
+    let bar = |ahead: Vec2| Shape::rod(center - ahead * reach, center + ahead * reach, thin);
+    match color {
+        LightColor::White => None,
+        LightColor::Amber => Some(Shape::circle(center, (reach * 0.6).max(1.5))),
+        LightColor::Red => Some(bar(Vec2::Y)),
+        LightColor::Green => Some(bar(Vec2::X)),
+        LightColor::Blue => Some(Shape::Union(vec![bar(Vec2::X), bar(Vec2::Y)])),
+    }
 }
 
 /// A white mushroom with a red ring and a star.
