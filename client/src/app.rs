@@ -269,6 +269,9 @@ impl App {
             // Of a game that was lost.
             self.view.overlay = None;
         }
+        let settings = &self.store.settings;
+        (self.view.reduced_flashing, self.view.marked_lights) = (settings.reduced_flashing, settings.marked_lights);
+        self.view.text_scale = settings.text_scale;
         if self.shows_statistics {
             self.view.hud.message = self.statistics();
         }

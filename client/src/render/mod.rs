@@ -76,13 +76,9 @@ struct Comfort {
 
 impl Comfort {
     fn of(view: &View) -> Self {
-        let text_scale = if view.text_scale > 1.0 { view.text_scale.min(LARGEST_TEXT) } else { 1.0 };
-        Self { marked_lights: view.marked_lights, text_scale }
+        Self { marked_lights: view.marked_lights, text_scale: view.text_scale.max(1.0) }
     }
 }
-
-/// How much larger than usual text can be.
-const LARGEST_TEXT: f32 = 1.6;
 
 /// What was painted for one size of the window.
 struct Art {
