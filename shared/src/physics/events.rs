@@ -425,6 +425,9 @@ impl World {
         hit: Option<u16>,
         before: Option<u16>,
     ) {
+        if self.scene.needs.floors {
+            self.turn_back_on_edge(ball, offset, position, velocity);
+        }
         let is_possible = velocity.length_squared() <= MOST_SPEED * MOST_SPEED;
         let velocity = if is_possible { velocity } else { velocity * (MOST_SPEED / velocity.length()) };
         let left = match hit {

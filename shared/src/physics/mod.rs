@@ -7,6 +7,7 @@ pub mod cabinet;
 pub mod constants;
 pub mod contact;
 mod drive;
+mod edges;
 mod events;
 pub mod flipper;
 mod follow;

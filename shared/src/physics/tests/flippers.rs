@@ -196,7 +196,7 @@ fn a_cradled_ball_lies_still_bit_for_bit_and_rolls_off_when_let_go() {
 
 /// Velocity of a ball that rolled down the left flipper and was shot from that share of its length.
 fn shot(tick_hz: u32, share: f64) -> DVec2 {
-    let source = crate::table::SHIPPED[0].1.replace("gravity:", &format!("tick_hz: {tick_hz}, gravity:"));
+    let source = crate::table::SHIPPED[0].source.replace("gravity:", &format!("tick_hz: {tick_hz}, gravity:"));
     let mut world = match Table::parse("classic.ron", &source) {
         Ok(table) => World::new(table.scene),
         Err(error) => panic!("{error}"),
