@@ -241,7 +241,7 @@ mod tests {
 
     #[test]
     fn tables_and_pictures() {
-        assert!(check(&["--table", "no such"]).unwrap_err().contains("no shipped table (classic)"));
+        assert!(check(&["--table", "no such"]).unwrap_err().contains("no shipped table (classic, lighthouse)"));
         let file = std::env::temp_dir().join(format!("starball-{}.ron", std::process::id()));
         std::fs::write(&file, "(\n    format: 1,\n    nonsense: 2,\n)").unwrap();
         let problem = check(&["--table", file.to_str().unwrap()]).unwrap_err();

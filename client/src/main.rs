@@ -120,8 +120,8 @@ fn in_window(options: Options) -> Result<(), String> {
 }
 
 fn first_shipped() -> Result<Arc<Table>, String> {
-    let (name, source) = SHIPPED.first().ok_or("no table is shipped")?;
-    Table::parse(name, source).map(Arc::new).map_err(|error| error.to_string())
+    let first = SHIPPED.first().ok_or("no table is shipped")?;
+    Table::parse(first.name, first.source).map(Arc::new).map_err(|error| error.to_string())
 }
 
 /// Where there is no display, the bot plays for whoever watches from elsewhere.

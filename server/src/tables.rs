@@ -34,7 +34,7 @@ pub fn read_table(name: &str) -> Result<Table, String> {
 
 fn read(name: &str) -> Result<String, String> {
     let no_table = |error: std::io::Error| {
-        let shipped: Vec<_> = SHIPPED.iter().map(|(name, _)| *name).collect();
+        let shipped: Vec<_> = SHIPPED.iter().map(|shipped| shipped.name).collect();
         format!("{name:?} is no shipped table ({}), and as a file: {error}", shipped.join(", "))
     };
     load_text(name.as_ref(), MOST_SCENE_TEXT).map_err(no_table)
@@ -82,6 +82,6 @@ mod tests {
         let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/tables/classic.ron");
         assert_eq!(load_table(file).map(|table| table.name.clone()), Ok("Classic".to_owned()));
         let error = load_table("nowhere").expect_err("there is none");
-        assert!(error.contains("no shipped table (classic)") && error.contains("as a file"), "{error}");
+        assert!(error.contains("no shipped table (classic, lighthouse)") && error.contains("as a file"), "{error}");
     }
 }

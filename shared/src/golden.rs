@@ -115,7 +115,7 @@ pub fn file() -> String {
 
 /// Tables and scenes in the order of the file, as in [`SCENES`].
 fn worlds() -> impl Iterator<Item = (&'static str, u64, &'static str)> {
-    let tables = SHIPPED.iter().map(|&(name, source)| (name, TABLE_EARLY, source));
+    let tables = SHIPPED.iter().map(|table| (table.name, TABLE_EARLY, table.source));
     tables.chain(SCENES.iter().copied())
 }
 

@@ -124,7 +124,7 @@ pub fn states() -> Vec<GameState> {
 /// # Panics
 /// If the scenes are not where they belong.
 pub fn tables() -> Vec<String> {
-    let mut tables: Vec<_> = SHIPPED.iter().map(|(_, source)| (*source).to_owned()).collect();
+    let mut tables: Vec<_> = SHIPPED.iter().map(|shipped| shipped.source.to_owned()).collect();
     let shared = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared");
     for folder in ["tables/scenes", "tests/truth/scenes"] {
         let files = std::fs::read_dir(shared.join(folder)).expect("there are scenes");

@@ -89,7 +89,7 @@ impl Stage {
 
 /// Classic, but a served ball falls into the drain at once.
 fn ball_eater() -> Arc<Table> {
-    let source = SHIPPED[0].1.replace("start: (0.494, 0.1145)", "start: (0.237, 0.1)");
+    let source = SHIPPED[0].source.replace("start: (0.494, 0.1145)", "start: (0.237, 0.1)");
     Arc::new(Table::parse("eater", &source).expect("valid"))
 }
 

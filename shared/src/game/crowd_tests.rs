@@ -177,7 +177,7 @@ fn a_turn_s_end_or_a_tilt_undoes_everything_and_a_lost_ball_pays_the_crowd() {
 
 #[test]
 fn a_table_without_a_crowd_hears_none() {
-    let (before, rest) = SHIPPED[0].1.split_once("crowd: (").unwrap();
+    let (before, rest) = SHIPPED[0].source.split_once("crowd: (").unwrap();
     let (_, after) = rest.split_once("\n        ),\n").unwrap();
     let table = Table::parse("classic.ron", &format!("{before}{after}")).unwrap_or_else(|error| panic!("{error}"));
     let mut game = Game::new(Arc::new(table));

@@ -7,7 +7,7 @@ use crate::table::SHIPPED;
 
 /// Classic with a cabinet that can be nudged, with a ball in play on its plunger.
 fn started() -> Game {
-    let source = SHIPPED[0].1;
+    let source = SHIPPED[0].source;
     let source = if source.contains("cabinet:") {
         source.to_owned()
     } else {
@@ -124,7 +124,7 @@ fn a_ball_on_the_plunger_can_be_launched_after_a_tilt_and_the_next_one_begins_wi
 fn a_magnet_lets_go_at_a_tilt_and_is_as_it_was_at_the_next_ball() {
     let magnet =
         "elements: [Magnet(name: \"m\", center: (0.237, 0.3), radius: 0.05, core: 0.01, strength: 5.0, on: true),";
-    let source = SHIPPED[0].1.replacen("elements: [", magnet, 1);
+    let source = SHIPPED[0].source.replacen("elements: [", magnet, 1);
     let mut game = Game::new(Arc::new(Table::parse("classic.ron", &source).unwrap_or_else(|error| panic!("{error}"))));
     act(&mut game, &[Action::Sit, Action::Start]);
     wait(&mut game, 1000);

@@ -4,7 +4,7 @@ use std::fs;
 
 use super::{SCENES, line};
 use crate::physics::PHYSICS_VERSION;
-use crate::table::{SHIPPED, Table};
+use crate::table::{SHIPPED, Shipped, Table};
 
 const FILE: &str = include_str!("../golden.txt");
 
@@ -46,7 +46,7 @@ fn every_golden_run_is_what_it_always_was() {
 fn the_golden_file_and_every_table_have_the_version_of_these_physics() {
     let version = PHYSICS_VERSION.to_string();
     assert_eq!(lines()[0], ["physics", &version], "the golden file is of other physics. {ADVICE}");
-    for (name, source) in SHIPPED {
+    for &Shipped { name, source, .. } in SHIPPED {
         let table = Table::parse(&format!("{name}.ron"), source).unwrap_or_else(|error| panic!("{error}. {ADVICE}"));
         assert_eq!(table.file.physics, PHYSICS_VERSION, "{name}. {ADVICE}");
     }

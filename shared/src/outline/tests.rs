@@ -159,7 +159,7 @@ fn a_track_goes_through_every_impact_and_along_every_flight() {
 
 #[test]
 fn a_ball_in_a_saucer_lies_there_and_is_thrown_out() {
-    let source = crate::table::SHIPPED[0].1.replace(
+    let source = crate::table::SHIPPED[0].source.replace(
         "        Drain(name: \"drain\"",
         "        Saucer(name: \"cup\", center: (0.237, 0.37), radius: 0.012, capture: 2.0, kick: (0.0, 1.0), hold: Some(0.5)),
         Drain(name: \"drain\"",

@@ -173,7 +173,7 @@ Scene(
 
     #[test]
     fn a_played_table_may_ask_as_well() {
-        let (_, classic) = super::super::SHIPPED[0];
+        let classic = super::super::SHIPPED[0].source;
         let text = classic.replacen("rest_speed:", "accuracy: (tolerance: 0.001, horizon: Bounces(3)), rest_speed:", 1);
         let text: String =
             text.lines().filter(|line| !line.trim_start().starts_with("tick_hz:")).map(|l| format!("{l}\n")).collect();

@@ -84,7 +84,7 @@ mod tests {
     /// Broke: a complaint quoted whatever the text said in full, as it was.
     #[test]
     fn a_complaint_is_short_and_plain_whatever_it_quotes() {
-        let good = SHIPPED[0].1;
+        let good = SHIPPED[0].source;
         let long = "restitution".repeat(5000);
         let texts = [
             good.replacen("restitution", &long, 1),

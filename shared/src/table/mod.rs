@@ -18,6 +18,7 @@ mod mechanisms_tests;
 mod rulebook;
 mod scene_form;
 mod shapes;
+mod shipped;
 #[cfg(test)]
 mod tests;
 mod unique;
@@ -34,6 +35,7 @@ pub(crate) use error::readable;
 pub use format::{ElementFile, TableFile};
 pub use rulebook::{Command, Rule, RuleBook, Trigger};
 pub use scene_form::{SceneBall, SceneElement, SceneFile};
+pub use shipped::{SHIPPED, Shipped};
 
 use crate::math::digest_of;
 use crate::physics::motion::Motion;
@@ -47,9 +49,6 @@ pub const MOST_TEXT: usize = 256 * 1024;
 
 /// The largest scene text that is read, bytes. Scenes are not sent.
 pub const MOST_SCENE_TEXT: usize = 16 * 1024 * 1024;
-
-/// The tables that come with the game: name and text.
-pub const SHIPPED: &[(&str, &str)] = &[("classic", include_str!("../../tables/classic.ron"))];
 
 /// A table that has passed every check.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,7 +131,7 @@ impl Table {
     /// # Errors
     /// None, as long as the tests of this crate pass.
     pub fn shipped(name: &str) -> Option<Result<Self, TableError>> {
-        let (name, source) = SHIPPED.iter().find(|(known, _)| *known == name)?;
-        Some(Self::parse(&format!("{name}.ron"), source))
+        let shipped = SHIPPED.iter().find(|shipped| shipped.name == name)?;
+        Some(Self::parse(&format!("{name}.ron"), shipped.source))
     }
 }

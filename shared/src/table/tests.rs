@@ -293,10 +293,14 @@ fn line_at(text: &str, position: usize) -> usize {
 #[test]
 fn a_good_table_and_every_shipped_one_are_accepted() {
     assert_eq!(Table::parse("good.ron", GOOD).map(|table| table.name), Ok("Good".to_owned()));
-    for (name, _) in SHIPPED {
-        if let Some(Err(error)) = Table::shipped(name) {
+    for shipped in SHIPPED {
+        if let Some(Err(error)) = Table::shipped(shipped.name) {
             panic!("{error}");
         }
+        assert!(
+            (1..=60).contains(&shipped.about.len()) && shipped.about.chars().all(|c| matches!(c, ' '..='~')),
+            "{shipped:?}"
+        );
     }
     assert_eq!(Table::shipped("no such table"), None);
 }
@@ -440,7 +444,7 @@ fn mistakes_in_a_scene_are_refused_with_place_and_remedy() {
 /// A ball that was served within a bumper stayed there.
 #[test]
 fn a_ball_is_not_served_within_something() {
-    let (_, classic) = super::SHIPPED[0];
+    let classic = SHIPPED[0].source;
     let text = classic.replace("start: (0.494, 0.1145)", "start: (0.19, 0.765)");
     let error = Table::parse("inside.ron", &text).expect_err("bumper 1 is there");
     assert_eq!(

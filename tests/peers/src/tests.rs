@@ -89,7 +89,7 @@ fn an_elastic_ball_in_a_ring_keeps_its_energy() {
 fn what_peers_cannot_run_is_refused() {
     let ball = "balls: [(position: (0.0, 0.4))]";
     for (text, wanted) in [
-        (SHIPPED[0].1.to_owned(), "no ball is in play"),
+        (SHIPPED[0].source.to_owned(), "no ball is in play"),
         (
             format!(
                 "Scene(gravity: (0.0, 0.0), {ball}, elements: [Hole(from: (1.0, 0.0), to: (1.0, 1.0), leads_to: 1)])"

@@ -11,8 +11,7 @@ use crate::harness::{Client, Server, quiet};
 
 /// Classic, but a served ball falls into the drain at once.
 fn ball_eater() -> Config {
-    let (_, source) = SHIPPED[0];
-    let source = source.replace("start: (0.494, 0.1145)", "start: (0.237, 0.1)");
+    let source = SHIPPED[0].source.replace("start: (0.494, 0.1145)", "start: (0.237, 0.1)");
     let mut config = quiet();
     config.table = Arc::new(Table::parse("eater", &source).expect("valid"));
     config
