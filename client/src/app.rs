@@ -10,6 +10,7 @@ use shared::table::Table;
 
 use crate::arguments::{Goal, Options};
 use crate::assemble;
+use crate::audio::{Audio, Scene};
 use crate::controls::Controls;
 use crate::embedded::Embedded;
 use crate::input::{Keyboard, Wish};
@@ -57,6 +58,7 @@ pub(crate) struct App {
     keyboard: Keyboard,
     controls: Controls,
     renderer: Renderer,
+    audio: Audio,
     /// The table that the renderer draws.
     table: Arc<Table>,
     /// The last frame: it stays on the screen when the connection is lost.
@@ -79,6 +81,7 @@ impl App {
             keyboard: Keyboard::new(),
             controls: Controls::new(store.settings.keys.clone()),
             renderer: Renderer::new(&backdrop.file),
+            audio: Audio::start(),
             view: View::default(),
             limiter: Limiter::new(options.fps),
             last_size: (0.0, 0.0),
@@ -105,6 +108,7 @@ impl App {
             session.advance(now, &mut self.controls);
             send(connection, session);
         }
+        self.let_hear();
         // 4. That as plain data.
         self.assemble(now);
         // 5. The picture.
@@ -248,6 +252,17 @@ impl App {
             }
         }
         true
+    }
+
+    /// 3. What happened on the board that is seen large, to be heard.
+    fn let_hear(&mut self) {
+        self.audio.set_volume(self.options.volume.unwrap_or(self.store.settings.volume));
+        let State::Live(_, session) = &mut self.state else { return };
+        let events = session.take_fresh();
+        let (board, is_own) = (session.main_board(), matches!(self.options.goal, Goal::Own(_)));
+        let Some(moment) = session.moment(board) else { return };
+        let is_attract = is_own && session.place().is_none();
+        self.audio.hear(&Scene { table: session.table(), board, moment: &moment, events: &events, is_attract });
     }
 
     /// 4. Puts the frame's view together.

@@ -36,6 +36,9 @@ pub(crate) struct Arguments {
     /// Frames a second at most; 0: as many as there can be.
     #[arg(long, global = true, default_value_t = 60)]
     fps: u32,
+    /// How loud the game is, in percent, whatever the settings say; 0: silent.
+    #[arg(long, global = true, value_name = "0..100", value_parser = clap::value_parser!(u8).range(0..=100))]
+    volume: Option<u8>,
     /// Shows what the physics sees: shapes, normals, velocities, the flights to come. F4 switches it.
     #[arg(long, global = true)]
     overlay: bool,
@@ -115,6 +118,8 @@ pub(crate) struct Options {
     pub(crate) screenshot: Option<Screenshot>,
     /// Frames a second, 0: no limit.
     pub(crate) fps: u32,
+    /// How loud it is, 0 to 100, whatever the settings say.
+    pub(crate) volume: Option<u8>,
     /// Whether the overlay is on from the start.
     pub(crate) overlay: bool,
     /// Whether to print statistics at the end.
@@ -139,8 +144,8 @@ impl Arguments {
         };
         let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
         let settings = self.settings.or_else(settings::usual_file);
-        let Self { name, fps, overlay, stats, .. } = self;
-        Ok(Options { goal, name, settings, screenshot, fps, overlay, stats })
+        let Self { name, fps, volume, overlay, stats, .. } = self;
+        Ok(Options { goal, name, settings, screenshot, fps, volume, overlay, stats })
     }
 }
 

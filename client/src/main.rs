@@ -2,11 +2,12 @@
 //!
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
 //! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `settings` (what they have chosen), `screens`, `effects`,
-//! `overlay` and `assemble` (what goes into a `view`), `render` (draws it).
+//! `overlay` and `assemble` (what goes into a `view`), `render` (draws it), `audio` (what is heard).
 
 mod app;
 mod arguments;
 mod assemble;
+mod audio;
 mod budget;
 mod controls;
 mod display;

@@ -79,8 +79,14 @@ impl Prediction {
         }
     }
 
-    /// Compares with the server's `game`, and goes back to it if they differ. `None` if it is no newer than the last.
-    pub(crate) fn confirm(&mut self, game: &Game, budget: &mut Budget) -> Option<Verdict> {
+    /// Compares with the server's `game`, and goes back to it if they differ; `instead` gets what then happens on the way to
+    /// where it was. `None` if it is no newer than the last.
+    pub(crate) fn confirm(
+        &mut self,
+        game: &Game,
+        budget: &mut Budget,
+        instead: impl FnMut(&GameEvent),
+    ) -> Option<Verdict> {
         let (tick, reached) = (game.tick(), self.game.tick());
         if tick <= self.confirmed {
             return None;
@@ -98,7 +104,7 @@ impl Prediction {
         self.digests.clear();
         self.digests.push_back(self.game.digest());
         // What happens on the way has been shown already, or was shown wrongly: either way it is past.
-        self.advance(reached, budget, |_| {});
+        self.advance(reached, budget, instead);
         Some(if predicted.is_some() { Verdict::Wrong } else { Verdict::Unknown })
     }
 }
@@ -148,7 +154,7 @@ mod tests {
             while self.down.front().is_some_and(|(arrival, _)| *arrival <= now) {
                 let (_, game) = self.down.pop_front().unwrap();
                 let prediction = self.prediction.get_or_insert_with(|| Prediction::new(&game, 0));
-                match prediction.confirm(&game, &mut Budget::endless()) {
+                match prediction.confirm(&game, &mut Budget::endless(), |_| {}) {
                     Some(Verdict::Right) => self.right += 1,
                     Some(Verdict::Wrong) => self.wrong += 1,
                     Some(Verdict::Unknown) | None => {}

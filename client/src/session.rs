@@ -9,6 +9,7 @@ mod board;
 mod contest;
 mod error;
 mod feed;
+mod ghosts;
 mod pause;
 mod pings;
 #[cfg(test)]
@@ -16,7 +17,7 @@ mod simulated;
 
 use std::sync::Arc;
 
-use shared::game::{Game, Phase, SEATS};
+use shared::game::{Game, GameEvent, Phase, SEATS};
 use shared::physics::PHYSICS_VERSION;
 use shared::protocol::{ClientMessage, Form, Heard, Mode, Role, Roster, ServerMessage, Stream, Tally, Welcome};
 use shared::table::Table;
@@ -364,6 +365,13 @@ impl Session {
     /// The same, to let it fade.
     pub(crate) fn effects_mut(&mut self, board: usize) -> Option<&mut Effects> {
         self.boards.get_mut(board).map(|board| &mut board.effects)
+    }
+
+    /// What was shown on the main board since the last call, to be heard.
+    pub(crate) fn take_fresh(&mut self) -> Vec<GameEvent> {
+        let main = self.main_board();
+        let mut fresh = self.boards.iter_mut().map(|board| std::mem::take(&mut board.fresh));
+        fresh.nth(main).unwrap_or_default()
     }
 
     /// What was counted.

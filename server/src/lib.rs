@@ -5,6 +5,8 @@
 //! (`lobby` knows who sits where, `votes` what the crowd wants), `streams` makes frames of what happened, `broadcast` writes
 //! them to everybody.
 
+#![forbid(unsafe_code)]
+
 mod account;
 mod broadcast;
 mod chatter;

@@ -1,5 +1,7 @@
 //! The headless server's command line: `starball-server` serves, its subcommands play without network.
 
+#![forbid(unsafe_code)]
+
 mod feel;
 mod subcommands;
 

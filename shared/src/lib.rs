@@ -6,6 +6,7 @@
 //! `extremes` tries what the physics promises, `feel` how it plays.
 //! There is no clock, file, socket or thread in here; callers pass time and bytes. The one entry is [`game::Game::step`].
 
+#![forbid(unsafe_code)]
 #![warn(missing_docs)]
 
 pub mod extremes;

@@ -4,6 +4,8 @@
 //! `arguments` says what can be asked for, `fleet` runs it all, `connection` is one of them, `spectator` and `player` are what it
 //! does, `hostile` what it does wrong, `clock` judges how late frames are, and `report` tells.
 
+#![forbid(unsafe_code)]
+
 mod arguments;
 mod clock;
 mod connection;

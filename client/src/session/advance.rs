@@ -89,14 +89,22 @@ impl Session {
         let target = (live + lead).min(newest.tick() as f64 + MOST_AHEAD / dt);
         let prediction = match &mut self.prediction {
             Some(prediction) if prediction.seat() == seat && (prediction.tick() as f64) < target + MOST_EXCESS / dt => {
-                match prediction.confirm(newest, &mut self.budget) {
+                let mut instead = Vec::new();
+                match prediction.confirm(newest, &mut self.budget, |event| instead.push(*event)) {
                     Some(Verdict::Right) => self.counts.right += 1,
-                    Some(Verdict::Wrong) => self.counts.wrong += 1,
+                    Some(Verdict::Wrong) => {
+                        self.counts.wrong += 1;
+                        board.correct(newest.tick(), &instead);
+                    }
                     Some(Verdict::Unknown) | None => {}
                 }
                 prediction
             }
-            other => other.insert(Prediction::new(newest, seat)),
+            other => {
+                // What was shown beyond it happens now, or never.
+                board.correct(newest.tick(), &[]);
+                other.insert(Prediction::new(newest, seat))
+            }
         };
         // After a frame that took long, its first tick is too early for an input to arrive in time.
         let earliest = (live + lead - (MARGIN - EARLY) / dt).max(0.0).ceil() as u64;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use shared::game::{Game, GameEvent};
 use shared::table::Table;
 
+use super::ghosts::Ghosts;
 use crate::effects::Effects;
 use crate::snapshots::SnapshotBuffer;
 
@@ -20,12 +21,17 @@ pub(super) struct Board {
     pub(super) shown: f64,
     /// Events before this tick have been shown.
     pub(super) events_shown: u64,
+    /// What was shown since somebody last took it, to be heard.
+    pub(super) fresh: Vec<GameEvent>,
+    /// What was predicted and shown, but has not happened yet.
+    ghosts: Ghosts,
 }
 
 impl Board {
     pub(super) fn new(table: &Arc<Table>) -> Self {
         let snapshots = SnapshotBuffer::new(Arc::clone(table));
-        Self { snapshots, effects: Effects::default(), shown: 0.0, events_shown: 0 }
+        let ghosts = Ghosts::new(table.scene.tick_seconds);
+        Self { snapshots, effects: Effects::default(), shown: 0.0, events_shown: 0, fresh: Vec::new(), ghosts }
     }
 
     /// Goes on to `target`. A turn that ends takes the picture from ahead of the server to behind it: it waits instead of
@@ -39,25 +45,29 @@ impl Board {
 
     /// Something happened that is to be seen now, unless it was seen before.
     pub(super) fn note(&mut self, event: &GameEvent, table: &Table, loose: usize, now: f64) {
-        if event.tick >= self.events_shown {
+        let was_shown = self.ghosts.lays(event);
+        if event.tick >= self.events_shown && !was_shown {
             self.effects.note(event, table, loose, now);
+            self.fresh.push(*event);
         }
     }
 
     /// Lets be seen what was sent of the time up to what is shown.
     pub(super) fn note_sent(&mut self, table: &Table, loose: usize, now: f64) {
-        let Self { snapshots, effects, shown, events_shown } = self;
-        snapshots.take_events(*shown, |event| {
-            if event.tick >= *events_shown {
-                effects.note(&event, table, loose, now);
-            }
-        });
+        let mut events = Vec::new();
+        self.snapshots.take_events(self.shown, |event| events.push(event));
+        events.iter().for_each(|event| self.note(event, table, loose, now));
         self.seen_until(self.shown.max(0.0) as u64);
     }
 
     /// Everything before this tick has been seen.
     pub(super) fn seen_until(&mut self, tick: u64) {
         self.events_shown = self.events_shown.max(tick);
+    }
+
+    /// A prediction was wrong from `tick` on, and was made anew up to what has been seen: `events` are what happens instead.
+    pub(super) fn correct(&mut self, tick: u64, events: &[GameEvent]) {
+        self.ghosts.rise(tick, events);
     }
 
     /// Takes in a game as it was sent.

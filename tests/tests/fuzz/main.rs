@@ -1,6 +1,8 @@
 //! The checks of the fuzz targets on seeded mutations of their corpus: so many inputs a target that each takes about two
 //! seconds, and the same ones in every run. `tests/fuzz` looks further, with coverage to guide it.
 
+#![forbid(unsafe_code)]
+
 /// What is mutated: files, and fresh samples.
 mod corpus;
 /// One input from others.

@@ -1,5 +1,7 @@
 //! `starball-load` against a room that can be told to be wrong, and against the real server.
 
+#![forbid(unsafe_code)]
+
 /// The real server.
 mod real;
 /// A room that sends frames, and lies or leaves some out if it is told to.

@@ -1,5 +1,7 @@
 //! The real server over loopback: one module a story.
 
+#![forbid(unsafe_code)]
+
 /// A server on a free port and clients that speak to it.
 mod harness;
 
