@@ -72,6 +72,9 @@ impl Effects {
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
             // One that takes the place of a ball in a lock is no multiball.
             GameEventKind::Added { .. } if loose > 0 => self.say("MULTIBALL".to_owned(), now),
+            GameEventKind::Saved { .. } => self.say("BALL SAVED".to_owned(), now),
+            GameEventKind::ExtraBall { .. } => self.say("EXTRA BALL".to_owned(), now),
+            GameEventKind::Again { .. } => self.say("SHOOT AGAIN".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
             GameEventKind::Forfeited { .. } => self.say("TURN LOST".to_owned(), now),
             GameEventKind::Announced { action } => {

@@ -66,11 +66,27 @@ impl Game {
     }
 
     fn play_now(&self) -> Play {
-        Play { phase: self.phase(), crowd: self.crowd_now(), ..self.play.clone() }
+        let mut play = Play { phase: self.phase(), crowd: self.crowd_now(), ..self.play.clone() };
+        play.rules.pass(&self.table, self.ticks_uncounted());
+        play
+    }
+
+    /// Calm ticks with a ball in play that are not counted yet. Calm ends before anything is due, and lasts for no more than a
+    /// flight or a pause.
+    fn ticks_uncounted(&self) -> u32 {
+        if self.calm.look.in_play { (self.tick() - self.calm.counted) as u32 } else { 0 }
+    }
+
+    /// Seconds of play for which a light, by its place among the table's, is still lit; `None`: until a rule puts it out, or not
+    /// at all.
+    pub fn light_time_left(&self, light: usize) -> Option<f64> {
+        let ticks = self.play.rules.lights.ticks_left(light)?.saturating_sub(self.ticks_uncounted());
+        Some(f64::from(ticks) * self.table.scene.tick_seconds)
     }
 
     /// Makes up for the calm ticks: one is about to be played that may not be.
     pub(super) fn count_calm(&mut self) {
+        self.play.rules.pass(&self.table, self.ticks_uncounted());
         (self.play.phase, self.play.crowd) = (self.phase(), self.crowd_now());
         self.calm.counted = self.tick();
     }
@@ -98,6 +114,9 @@ impl Game {
                 due_in(self.rescue_due_in(quiet, QUIET_AFTER));
             }
             if let Some(ticks) = self.crowd_due_in() {
+                due_in(ticks);
+            }
+            if let (true, Some(ticks)) = (look.in_play, self.play.rules.due_in(&self.table)) {
                 due_in(ticks);
             }
             if until > tick {

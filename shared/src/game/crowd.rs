@@ -314,7 +314,7 @@ impl Game {
 
     fn order(&mut self, table: &Table, commands: &[Command]) {
         let (tick, events) = (self.now, &mut self.events);
-        rules::order(table, commands, &mut self.play.lights, &mut self.world, |effect| {
+        rules::order(table, commands, &mut self.play.rules, &mut self.world, |effect| {
             if let Effect::Message(place) = effect {
                 events.push(GameEvent { tick, kind: GameEventKind::Message { place } });
             }

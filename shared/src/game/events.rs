@@ -108,6 +108,21 @@ pub enum GameEventKind {
         /// To whom.
         seat: u8,
     },
+    /// A ball was lost, and is put into play again.
+    Saved {
+        /// Whose.
+        seat: u8,
+    },
+    /// A rule gave an extra ball.
+    ExtraBall {
+        /// To whom.
+        seat: u8,
+    },
+    /// The player of the turn that has ended plays on with an extra ball.
+    Again {
+        /// Who.
+        seat: u8,
+    },
     /// The last ball was lost, and with it the turn.
     Lost {
         /// Whose.

@@ -7,6 +7,8 @@ mod crowd;
 #[cfg(test)]
 mod crowd_tests;
 mod events;
+#[cfg(test)]
+mod extra_tests;
 mod input;
 mod multiball;
 #[cfg(test)]
@@ -37,7 +39,7 @@ use calm::Calm;
 use glam::DVec2;
 
 use crate::physics::{EventKind, StateError, World};
-use crate::rules::{self, Effect, Occasion, Score};
+use crate::rules::{self, Effect, Occasion};
 use crate::table::Table;
 
 /// A game in progress, or a table that waits for one.
@@ -89,6 +91,7 @@ impl Game {
         let tick = self.world.state().tick;
         self.count_calm();
         self.now = tick;
+        let balls_before = self.balls_of_turn();
         // 0. What the crowd has announced, and what of it is over.
         self.run_crowd();
         // 1. What players do, and what the crowd wants.
@@ -105,6 +108,7 @@ impl Game {
         }
         // 4. The rules make points of what happened.
         self.apply_rules();
+        self.heed_end_of_multiball(balls_before);
         // 5. The last lost ball ends the turn; a stuck one is served again.
         if self.table.scene.needs.saucers {
             self.free_held_balls();
@@ -112,6 +116,7 @@ impl Game {
         self.end_turn_when_lost();
         let look = self.free_stuck_ball();
         self.feed_crowd(look);
+        self.pass_time_of_play(look);
         self.find_calm(look);
     }
 
@@ -158,7 +163,12 @@ impl Game {
 
     /// Lit lights, one bit each.
     pub fn lights(&self) -> u64 {
-        self.play.lights
+        self.play.rules.lights.lit()
+    }
+
+    /// Whether the next ball that is lost is put into play again.
+    pub fn saves_balls(&self) -> bool {
+        self.play.rules.save.is_on()
     }
 
     /// What happened in the last step.
@@ -171,7 +181,9 @@ impl Game {
         match self.play.phase {
             Phase::Idle | Phase::Over => true,
             // Whoever sat down before a seat whose turn it is would miss a ball.
-            Phase::Play { seat, ball, untouched, .. } => seat == 0 && ball == 1 && untouched,
+            Phase::Play { seat, ball, untouched, .. } => {
+                seat == 0 && ball == 1 && untouched && self.play.seats[0].extra_balls == 0
+            }
         }
     }
 
@@ -183,6 +195,7 @@ impl Game {
         state.play.check(&self.table)?;
         self.world.restore(state.world)?;
         self.play = state.play;
+        self.play.rules.lights.reserve();
         self.calm = Calm { counted: self.tick(), ..Calm::default() };
         self.events.clear();
         Ok(())
@@ -213,7 +226,7 @@ impl Game {
             Action::Sit => {
                 if !place.taken {
                     let playing = self.is_at_start() && matches!(self.play.phase, Phase::Play { .. });
-                    self.play.seats[usize::from(seat)] = Seat { taken: true, playing, score: Score::default() };
+                    self.play.seats[usize::from(seat)] = Seat { taken: true, playing, ..Seat::default() };
                     self.emit(GameEventKind::SatDown { seat });
                 }
             }
@@ -289,7 +302,18 @@ impl Game {
                     self.play.phase.add_ball();
                 }
             }
+            if matches!(event.kind, EventKind::Drained) {
+                self.save_ball();
+            }
             self.occasion(Occasion::Physics(event.kind), Some(event.position));
+        }
+    }
+
+    /// Time goes by for what the rules have begun, while a ball is in play.
+    fn pass_time_of_play(&mut self, look: rescue::Look) {
+        let out = if look.in_play { self.play.rules.pass(&self.table, 1) } else { 0 };
+        if out != 0 {
+            self.occasion(Occasion::Out(out), None);
         }
     }
 
@@ -301,8 +325,8 @@ impl Game {
         }
         let tick = self.now;
         let (events, phase) = (&mut self.events, &mut self.play.phase);
-        let score = &mut self.play.seats[usize::from(seat)].score;
-        rules::run(&self.table, occasion, score, &mut self.play.lights, &mut self.world, |effect| {
+        let Seat { score, extra_balls, extra_waiting, .. } = &mut self.play.seats[usize::from(seat)];
+        rules::run(&self.table, occasion, score, &mut self.play.rules, &mut self.world, |effect| {
             let kind = match effect {
                 Effect::Points(points) => {
                     let place = position.map(|place| (place.x as f32, place.y as f32));
@@ -310,6 +334,11 @@ impl Game {
                 }
                 Effect::Message(place) => GameEventKind::Message { place },
                 Effect::Serve => return phase.add_ball(),
+                Effect::ExtraBall if *extra_balls < self.table.rules.max_extra_balls => {
+                    (*extra_balls, *extra_waiting) = (*extra_balls + 1, *extra_waiting + 1);
+                    GameEventKind::ExtraBall { seat }
+                }
+                Effect::ExtraBall => return,
             };
             events.push(GameEvent { tick, kind });
         });

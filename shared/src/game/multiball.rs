@@ -3,6 +3,7 @@
 use super::state::{MOST_EXTRA, Phase};
 use super::{Game, GameEventKind};
 use crate::physics::ball::Instant;
+use crate::rules::Occasion;
 
 impl Phase {
     /// One more ball is to be put into play.
@@ -29,6 +30,31 @@ impl Game {
         {
             *extra -= 1;
             self.emit(GameEventKind::Added { seat });
+        }
+    }
+
+    /// A ball is lost: for some time it is put into play again.
+    pub(super) fn save_ball(&mut self) {
+        if let Phase::Play { seat, .. } = self.play.phase
+            && self.play.rules.save(&self.table)
+        {
+            self.play.phase.add_ball();
+            self.emit(GameEventKind::Saved { seat });
+        }
+    }
+
+    /// Balls in play and to be put into play, without those that are locked.
+    pub(super) fn balls_of_turn(&self) -> usize {
+        match self.play.phase {
+            Phase::Play { extra, .. } => self.world.loose_balls() + extra as usize,
+            _ => 0,
+        }
+    }
+
+    /// After the rules of a tick before which that many balls were in play.
+    pub(super) fn heed_end_of_multiball(&mut self, balls_before: usize) {
+        if balls_before > 1 && self.balls_of_turn() == 1 {
+            self.occasion(Occasion::MultiballEnd, None);
         }
     }
 

@@ -32,7 +32,7 @@ const CRADLE: f64 = 6.0;
 pub(super) struct Look {
     /// One that lies still where nobody holds it, by its id: the one that is watched already, if that still does.
     pub(super) stuck: Option<u32>,
-    /// Not all of them wait at the plunger.
+    /// Not all of them wait at the plunger or in locks.
     pub(super) in_play: bool,
 }
 
@@ -60,7 +60,7 @@ impl Game {
         if still >= stuck_after.saturating_add(search_time) {
             self.serve_again(look.stuck);
         } else if quiet >= quiet_after.saturating_add(search_time) {
-            let in_play = self.world.state().balls.iter().find(|ball| !self.waits(ball)).map(|ball| ball.id);
+            let in_play = self.world.state().balls.iter().find(|ball| self.is_in_play(ball)).map(|ball| ball.id);
             self.serve_again(in_play);
         }
         look
@@ -73,16 +73,21 @@ impl Game {
         due.saturating_sub(ticks)
     }
 
-    /// Whether a ball is in play that does not merely wait at the plunger.
+    /// Whether a ball is in play that does not merely wait at the plunger or in a lock.
     pub(super) fn has_ball_in_play(&self) -> bool {
         matches!(self.play.phase, Phase::Play { serve_in: 0, .. })
-            && self.world.state().balls.iter().any(|ball| !self.waits(ball))
+            && self.world.state().balls.iter().any(|ball| self.is_in_play(ball))
+    }
+
+    /// Neither at the plunger nor locked: both wait for as long as the player likes.
+    fn is_in_play(&self, ball: &Ball) -> bool {
+        !self.waits(ball) && !self.world.is_locked(ball)
     }
 
     fn look(&self, watched: u32) -> Look {
         let mut look = Look::default();
         for ball in &self.world.state().balls {
-            if self.waits(ball) {
+            if !self.is_in_play(ball) {
                 continue;
             }
             look.in_play = true;

@@ -6,7 +6,7 @@ use super::crowd::{CrowdState, check_crowd, sample_crowd};
 use super::input::SEATS;
 use super::tilt::Tilt;
 use crate::physics::{StateError, WorldState};
-use crate::rules::Score;
+use crate::rules::{RuleState, Score};
 use crate::table::Table;
 
 /// The most balls that a table's rules may give a player.
@@ -26,23 +26,29 @@ pub struct Seat {
     pub taken: bool,
     /// They are in the game that is being played.
     pub playing: bool,
+    /// Extra balls that they have got in this game, at most [`MOST_EXTRA_BALLS`](crate::table::MOST_EXTRA_BALLS) ...
+    pub extra_balls: u8,
+    /// ... and those of them that they have still to play.
+    pub extra_waiting: u8,
     /// Their points in this game, or in the last one.
     pub score: Score,
 }
 
-/// As it is written: who sits and who plays are two bits of one byte.
+/// As it is written: who sits and who plays are two bits of one byte, and three each count extra balls.
 #[derive(Serialize, Deserialize)]
 struct SeatForm(u8, Score);
 
 impl From<Seat> for SeatForm {
-    fn from(Seat { taken, playing, score }: Seat) -> Self {
-        Self(u8::from(taken) | u8::from(playing) << 1, score)
+    fn from(Seat { taken, playing, extra_balls, extra_waiting, score }: Seat) -> Self {
+        let counts = (extra_balls & 7) << 2 | (extra_waiting & 7) << 5;
+        Self(u8::from(taken) | u8::from(playing) << 1 | counts, score)
     }
 }
 
 impl From<SeatForm> for Seat {
     fn from(SeatForm(bits, score): SeatForm) -> Self {
-        Self { taken: bits & 1 != 0, playing: bits & 2 != 0, score }
+        let (extra_balls, extra_waiting) = (bits >> 2 & 7, bits >> 5);
+        Self { taken: bits & 1 != 0, playing: bits & 2 != 0, extra_balls, extra_waiting, score }
     }
 }
 
@@ -89,8 +95,8 @@ impl Phase {
 pub struct Play {
     pub(super) phase: Phase,
     pub(super) seats: [Seat; SEATS],
-    /// One bit a light.
-    pub(super) lights: u64,
+    /// Lights, and what else the rules have changed.
+    pub(super) rules: RuleState,
     /// How the player whose turn it is treats the table.
     pub(super) tilt: Tilt,
     /// What the crowd does, at a table that has one.
@@ -100,11 +106,21 @@ pub struct Play {
 impl Play {
     /// Of a table at which nothing has happened.
     pub(super) fn new(table: &Table) -> Self {
-        Self { crowd: table.rules.crowd.as_ref().map(|_| CrowdState::default()), ..Self::default() }
+        let crowd = table.rules.crowd.as_ref().map(|_| CrowdState::default());
+        let mut play = Self { crowd, ..Self::default() };
+        play.rules.lights.reserve();
+        play
     }
 
     /// Refuses a turn of a seat that does not exist, and a crowd that is not this table's.
     pub(super) fn check(&self, table: &Table) -> Result<(), StateError> {
+        if !self.rules.fits(table) {
+            return Err(StateError::Number { what: "lights", index: 0 });
+        }
+        let most = table.rules.max_extra_balls;
+        if let Some(index) = self.seats.iter().position(|s| s.extra_balls > most || s.extra_waiting > s.extra_balls) {
+            return Err(StateError::Number { what: "extra balls of seat", index });
+        }
         match self.phase {
             Phase::Play { seat, .. } if usize::from(seat) >= SEATS => {
                 Err(StateError::Count { what: "seats", found: usize::from(seat) + 1, expected: SEATS })
@@ -133,8 +149,8 @@ pub(crate) fn sample_play(phase: Phase) -> Play {
     let score = Score { points: 300, bonus: 70_000, multiplier: 2 };
     Play {
         phase,
-        seats: [Seat { taken: true, playing: true, score }; SEATS],
-        lights: 5,
+        seats: [Seat { taken: true, playing: true, extra_balls: 3, extra_waiting: 1, score }; SEATS],
+        rules: RuleState::sample(),
         tilt: Tilt { warnings: 1, same_touch: 300, tilted: true },
         crowd: Some(sample_crowd()),
     }

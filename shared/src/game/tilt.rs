@@ -65,6 +65,7 @@ impl Game {
         if let Phase::Play { extra, .. } = &mut self.play.phase {
             *extra = 0;
         }
+        self.play.rules.end_save(&self.table);
         // What the crowd did is over, and what holds a ball lets go of it.
         self.end_crowd();
         for magnet in 0..self.table.scene.magnets.len() {

@@ -2,8 +2,8 @@
 
 use super::state::Phase;
 use super::tilt::Tilt;
-use super::{Game, GameEventKind, SEATS};
-use crate::rules::{Occasion, Score};
+use super::{Game, GameEventKind, SEATS, Seat};
+use crate::rules::Occasion;
 
 /// Seconds between a lost ball and the next.
 const SERVE_PAUSE: f64 = 1.5;
@@ -13,8 +13,7 @@ const START_PAUSE: f64 = 0.3;
 impl Game {
     pub(super) fn start(&mut self) {
         for seat in &mut self.play.seats {
-            seat.playing = seat.taken;
-            seat.score = Score::default();
+            *seat = Seat { taken: seat.taken, playing: seat.taken, ..Seat::default() };
         }
         self.restart_crowd();
         self.emit(GameEventKind::Started);
@@ -34,7 +33,7 @@ impl Game {
         }
     }
 
-    /// A turn is given up. What has been served ends as a ball that is lost does.
+    /// A turn is given up, and the extra balls that would follow. What has been served ends as a ball that is lost does.
     pub(super) fn forfeit(&mut self, seat: u8) {
         let was_served = self.is_ball_of(seat);
         self.world.clear_balls();
@@ -42,6 +41,7 @@ impl Game {
         if was_served {
             self.occasion(Occasion::BallEnd, None);
         }
+        self.play.seats[usize::from(seat)].extra_waiting = 0;
         self.next_turn();
     }
 
@@ -73,7 +73,15 @@ impl Game {
 
     fn next_turn(&mut self) {
         self.end_crowd();
+        self.play.rules.end_save(&self.table);
+        self.play.rules.lights.end_timers();
         let Phase::Play { seat, ball, .. } = self.play.phase else { return };
+        let place = &mut self.play.seats[usize::from(seat)];
+        if place.playing && place.extra_waiting > 0 {
+            place.extra_waiting -= 1;
+            self.begin_turn(seat, ball, SERVE_PAUSE);
+            return self.emit(GameEventKind::Again { seat });
+        }
         let playing = |from: usize, to: usize| (from..to).find(|&i| self.play.seats[i].playing);
         let (next, ball) = match playing(usize::from(seat) + 1, SEATS) {
             Some(next) => (Some(next), ball),
@@ -103,12 +111,13 @@ impl Game {
                 self.world.serve(self.table.ball_start);
                 self.emit(GameEventKind::Served { seat, ball });
                 self.occasion(Occasion::BallStart, None);
+                self.play.rules.begin_ball(&self.table);
             }
             _ => *serve_in -= 1,
         }
     }
 
-    /// When no ball is left, the turn is over.
+    /// When no ball is left, nor to come, the turn is over.
     pub(super) fn end_turn_when_lost(&mut self) {
         if let Phase::Play { seat, serve_in: 0, extra: 0, .. } = self.play.phase
             && self.world.state().balls.is_empty()

@@ -106,10 +106,19 @@ impl World {
         })
     }
 
+    /// Whether a ball lies in a saucer that throws it out only when told.
+    pub fn is_locked(&self, ball: &Ball) -> bool {
+        ball.saucer().is_some() && self.due_out(ball).is_none()
+    }
+
+    /// The balls that are not locked.
+    pub fn loose_balls(&self) -> usize {
+        self.state.balls.iter().filter(|ball| !self.is_locked(ball)).count()
+    }
+
     /// Whether every ball in play lies in a saucer, and none comes out unless told.
     pub fn waits_in_saucers(&self) -> bool {
-        let balls = &self.state.balls;
-        !balls.is_empty() && balls.iter().all(|ball| ball.saucer().is_some() && self.due_out(ball).is_none())
+        !self.state.balls.is_empty() && self.loose_balls() == 0
     }
 }
 

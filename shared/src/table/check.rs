@@ -36,6 +36,7 @@ pub(super) enum Spot<'a> {
     Ball,
     Cabinet,
     Rules,
+    BallSave,
     /// By its place among the rules.
     Rule(usize),
     Crowd,
@@ -153,6 +154,7 @@ impl<'a> Context<'a> {
             Spot::Ball => &[Step::Field("ball")],
             Spot::Cabinet => &[Step::Field("cabinet")],
             Spot::Rules => &[Step::Field("rules")],
+            Spot::BallSave => &[Step::Field("rules"), Step::Field("ball_save")],
             Spot::Rule(place) => &[Step::Field("rules"), Step::Field("on"), Step::Item(place)],
             Spot::Crowd => &[Step::Field("rules"), Step::Field("crowd")],
             Spot::CrowdAction(place) => {
@@ -169,6 +171,7 @@ impl<'a> Context<'a> {
             Spot::Ball => Some("ball".to_owned()),
             Spot::Cabinet => Some("cabinet".to_owned()),
             Spot::Rules => Some("rules".to_owned()),
+            Spot::BallSave => Some("ball save".to_owned()),
             Spot::Rule(place) => Some(format!("rule {}", place + 1)),
             Spot::Crowd => Some("crowd".to_owned()),
             Spot::CrowdAction(place) => Some(format!("crowd action {}", place + 1)),

@@ -5,7 +5,8 @@ use std::collections::BTreeSet;
 use super::check::{Context, Spot};
 use super::error::TableError;
 use super::format::{ActionFile, CrowdActionFile, CrowdFile};
-use super::rulebook::{Command, MOST_ACTIONS, command, points_in_range};
+use super::rule_names::{command, points_in_range};
+use super::rulebook::{Command, MOST_ACTIONS};
 
 /// Most actions that a crowd has: a state has room for so many.
 pub const MOST_CROWD_ACTIONS: usize = 8;
@@ -131,8 +132,18 @@ fn commands(
     for (place, action) in actions.iter().enumerate() {
         let error = |problem| context.error_at(spot, Some(field), Some(place), problem);
         use ActionFile as A;
-        if matches!(action, A::Score(_) | A::Bonus(_) | A::RaiseMultiplier | A::CollectBonus | A::Serve) {
-            let problem = "the crowd has no hand in the player's score and balls; Raise, Lower, Kick, Attract, Release, Light, Unlight or Message would be right";
+        let is_players = matches!(
+            action,
+            A::Score(_)
+                | A::Bonus(_)
+                | A::RaiseMultiplier
+                | A::CollectBonus
+                | A::Serve
+                | A::SaveBalls(_)
+                | A::ExtraBall
+        );
+        if is_players {
+            let problem = "the crowd has no hand in the player's score and balls; Raise, Lower, Kick, Attract, Release, Light, LightFor, Unlight or Message would be right";
             return Err(error(problem.to_owned()));
         }
         commands.push(command(context, action, messages).map_err(error)?);

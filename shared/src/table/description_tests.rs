@@ -31,7 +31,8 @@ fn every_element_and_rule_in_the_description_is_a_good_one() {
     let elements = examples("\n## Elements");
     let rules = section("\n## Rules").lines().filter(|line| line.starts_with("    (event:"));
     let rules = rules.collect::<Vec<_>>().join("\n");
-    let crowd = examples("\n## The crowd");
+    let ball_save = section("\n## Rules").lines().find(|line| line.trim_start().starts_with("ball_save:"));
+    let heads = [ball_save.unwrap_or_default(), &examples("\n## The crowd")].join("\n");
     let whole = section("\n## A whole table");
     let table = whole.find("    (").map(|at| &whole[at..]).unwrap_or_default();
     // Room for all of them, and every material that they are of.
@@ -43,15 +44,20 @@ fn every_element_and_rule_in_the_description_is_a_good_one() {
             "materials: {",
             "materials: { \"plastic\": (restitution: 0.3), \"rail\": (restitution: 0.5, friction: 0.1),",
         )
-        .replace("elements: [", &format!("elements: [\n{elements}"))
-        .replace("on: [", &format!("{crowd}\n on: [\n{rules}\n"));
+        .replace(
+            "elements: [",
+            &format!("groups: {{ \"bank\": [\"fence\"], \"locks\": [\"lock\"] }}, elements: [\n{elements}"),
+        )
+        .replace("on: [", &format!("{heads}\n on: [\n{rules}\n"));
     match Table::parse("README.md", &table) {
         Ok(table) => {
             assert_eq!(table.file.cabinet, Some(CabinetFile::default()), "it states the defaults");
             assert_eq!((table.scene.magnets.len(), table.scene.hinges.len(), table.scene.saucers.len()), (1, 2, 1));
-            assert!(table.scene.needs.floors && table.file.rules.on.len() == 5);
+            assert!(table.scene.needs.floors && table.file.rules.on.len() == 15);
             assert_eq!(table.rules.crowd.map(|crowd| crowd.actions.len()), Some(3));
             assert_eq!((table.scene.targets, table.scene.targets_down), (1, 1));
+            let save = table.rules.ball_save.map(|save| (save.lasts, save.saves, save.grace, save.light.count_ones()));
+            assert_eq!(save, Some((10.0, 1, 2.0, 1)));
         }
         Err(error) => panic!("{error}"),
     }

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::accuracy::Accuracy;
 pub use super::format_crowd::{CrowdActionFile, CrowdFile};
 pub use super::format_mechanisms::{EdgeFile, GateFile, MagnetFile, SaucerFile, SpinnerFile};
-pub use super::format_rules::{ActionFile, EventFile, RuleFile, RulesFile};
+pub use super::format_rules::{ActionFile, BallSaveFile, ConditionFile, EventFile, RuleFile, RulesFile};
 use super::unique;
 use crate::physics::motion::Motion;
 

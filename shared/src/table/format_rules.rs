@@ -12,6 +12,12 @@ pub struct RulesFile {
     pub balls: u32,
     /// The multiplier never grows beyond this.
     pub max_multiplier: u32,
+    /// Extra balls that a player can get in a game.
+    #[serde(default)]
+    pub max_extra_balls: u8,
+    /// How long after the launch a lost ball is put into play again. Left out: never.
+    #[serde(default)]
+    pub ball_save: Option<BallSaveFile>,
     /// In order: every rule whose event happened runs its actions.
     pub on: Vec<RuleFile>,
     /// What who watches may do against who plays. Left out: nothing.
@@ -19,12 +25,36 @@ pub struct RulesFile {
     pub crowd: Option<CrowdFile>,
 }
 
+/// For how long after the launch of a turn's ball a lost one is put into play again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BallSaveFile {
+    /// Seconds of play.
+    pub lasts: f64,
+    /// How many balls are saved in that time.
+    #[serde(default = "one")]
+    pub saves: u8,
+    /// Seconds for which balls are saved after its light has gone out.
+    #[serde(default)]
+    pub grace: f64,
+    /// The light, or the group of them, that tells of it.
+    #[serde(default)]
+    pub light: Option<String>,
+}
+
+fn one() -> u8 {
+    1
+}
+
 /// One rule.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RuleFile {
     /// When this happens ...
     pub event: EventFile,
+    /// ... and all of this was so just before ...
+    #[serde(default)]
+    pub when: Vec<ConditionFile>,
     /// ... do these, in order.
     pub run: Vec<ActionFile>,
 }
@@ -50,10 +80,33 @@ pub enum EventFile {
     BallStart,
     /// The last ball was lost.
     BallEnd,
+    /// Of several balls in play only one is left.
+    MultiballEnd,
+    /// A light that was lit for a time went out by itself.
+    Out(String),
+}
+
+/// What must be so for a rule to run. Names are of an element or of a group.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ConditionFile {
+    /// All of these lights are lit.
+    Lit(String),
+    /// One of these lights is lit, or more.
+    AnyLit(String),
+    /// None of these lights is lit.
+    Unlit(String),
+    /// All of these drop targets are down.
+    Down(String),
+    /// All of these drop targets stand.
+    Up(String),
+    /// One ball is in play, those that are locked not counted.
+    OneBall,
+    /// Two are, or more.
+    Multiball,
 }
 
 /// What a rule does.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub enum ActionFile {
     /// Points.
     Score(u64),
@@ -65,6 +118,8 @@ pub enum ActionFile {
     CollectBonus,
     /// A light, or a group of them, on.
     Light(String),
+    /// A light, or a group of them, on for so many seconds of play.
+    LightFor(String, f64),
     /// A light, or a group of them, off.
     Unlight(String),
     /// A drop target, or a group of them, up again.
@@ -79,6 +134,10 @@ pub enum ActionFile {
     Release(String),
     /// Another ball is put into play where balls are served, as soon as no ball is there.
     Serve,
+    /// Every ball that is lost within so many seconds of play is put into play again.
+    SaveBalls(f64),
+    /// The player plays on with another ball when this one is lost.
+    ExtraBall,
     /// A line on the display.
     Message(String),
 }

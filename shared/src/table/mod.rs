@@ -15,7 +15,10 @@ pub(crate) mod locate;
 mod mechanisms;
 #[cfg(test)]
 mod mechanisms_tests;
+mod rule_names;
 mod rulebook;
+#[cfg(test)]
+mod rules_tests;
 mod scene_form;
 mod shapes;
 mod shipped;
@@ -33,7 +36,7 @@ pub use crowd::{CrowdAction, CrowdRules, MOST_CROWD_ACTIONS};
 pub use error::TableError;
 pub(crate) use error::readable;
 pub use format::{ElementFile, TableFile};
-pub use rulebook::{Command, Rule, RuleBook, Trigger};
+pub use rulebook::{BallSaveRules, Command, Condition, MOST_EXTRA_BALLS, MOST_SECONDS, Rule, RuleBook, Trigger};
 pub use scene_form::{SceneBall, SceneElement, SceneFile};
 pub use shipped::{SHIPPED, Shipped};
 

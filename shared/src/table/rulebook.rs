@@ -1,9 +1,11 @@
 //! The rules of a table with every name resolved to a number.
 
-use super::check::{Context, Spot, is_printable, unprintable};
+use super::check::{Context, Spot};
 use super::crowd::{self, CrowdRules};
 use super::error::TableError;
-use super::format::{ActionFile, ElementFile, EventFile, RulesFile};
+use super::format::{ActionFile, BallSaveFile, RulesFile};
+use super::rule_names::{self, Kind, bits, command};
+use crate::rules::MOST_TIMED_LIGHTS;
 
 /// The rules of a table.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +14,10 @@ pub struct RuleBook {
     pub balls: u32,
     /// The multiplier never grows beyond this.
     pub max_multiplier: u32,
+    /// Extra balls that a player can get in a game.
+    pub max_extra_balls: u8,
+    /// Whether lost balls are saved.
+    pub ball_save: Option<BallSaveRules>,
     /// In the file's order.
     pub rules: Vec<Rule>,
     /// Every line that a rule can put on the display.
@@ -23,15 +29,38 @@ pub struct RuleBook {
 impl RuleBook {
     /// No rules at all.
     pub(super) fn empty(balls: u32, max_multiplier: u32) -> Self {
-        Self { balls, max_multiplier, rules: Vec::new(), messages: Vec::new(), crowd: None }
+        Self {
+            balls,
+            max_multiplier,
+            max_extra_balls: 0,
+            ball_save: None,
+            rules: Vec::new(),
+            messages: Vec::new(),
+            crowd: None,
+        }
     }
 }
 
-/// When a trigger is met, its commands run in order.
-#[derive(Debug, Clone, PartialEq, Eq)]
+/// For how long after the launch of a turn's ball a lost one is put into play again.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BallSaveRules {
+    /// Seconds of play.
+    pub lasts: f64,
+    /// How many balls are saved in that time.
+    pub saves: u8,
+    /// Seconds for which they are saved after the light has gone out.
+    pub grace: f64,
+    /// Lights that tell of it, one bit each.
+    pub light: u64,
+}
+
+/// When a trigger is met and all conditions were, its commands run in order.
+#[derive(Debug, Clone, PartialEq)]
 pub struct Rule {
     /// When.
     pub trigger: Trigger,
+    /// If all of that was so when the event happened.
+    pub when: Vec<Condition>,
     /// What.
     pub commands: Vec<Command>,
 }
@@ -57,10 +86,33 @@ pub enum Trigger {
     BallStart,
     /// The last ball in play was lost.
     BallEnd,
+    /// Of several balls in play only one is left.
+    MultiballEnd,
+    /// One of these lights went out by itself. One bit a light.
+    Out(u64),
+}
+
+/// What must be so for a rule to run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Condition {
+    /// All of these lights are lit, one bit a light.
+    Lit(u64),
+    /// One of them is, or more.
+    AnyLit(u64),
+    /// None of them is.
+    Unlit(u64),
+    /// All of these targets are down, one bit a target.
+    Down(u64),
+    /// All of them stand.
+    Up(u64),
+    /// One ball is in play, those that are locked not counted.
+    OneBall,
+    /// Two are, or more.
+    Multiball,
 }
 
 /// What a rule does.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Command {
     /// Points.
     Score(u64),
@@ -72,6 +124,8 @@ pub enum Command {
     CollectBonus,
     /// Lights on, one bit a light.
     Light(u64),
+    /// Lights on for so many seconds of play.
+    LightFor(u64, f64),
     /// Lights off.
     Unlight(u64),
     /// Targets up, one bit a target.
@@ -86,6 +140,10 @@ pub enum Command {
     Release(u64),
     /// Another ball.
     Serve,
+    /// Balls that are lost within so many seconds of play are put into play again.
+    SaveBalls(f64),
+    /// The player plays on with another ball when this one is lost.
+    ExtraBall,
     /// A line on the display, by its place in [`RuleBook::messages`].
     Message(u16),
 }
@@ -94,61 +152,14 @@ pub enum Command {
 const MOST_RULES: usize = 500;
 /// Most actions of a rule.
 pub(super) const MOST_ACTIONS: usize = 32;
-/// Most points of one action.
-const MOST_POINTS: u64 = 1_000_000_000;
-
-/// What kind of element a rule's name must stand for.
-#[derive(Clone, Copy, PartialEq)]
-enum Kind {
-    Hittable,
-    Passable,
-    Light,
-    Target,
-    Spinner,
-    Saucer,
-    Magnet,
-}
-
-impl Kind {
-    fn fits(self, element: &ElementFile) -> bool {
-        use ElementFile as E;
-        match self {
-            Self::Hittable => {
-                matches!(
-                    element,
-                    E::Wall(_)
-                        | E::Arc(_)
-                        | E::Post(_)
-                        | E::OneWay(_)
-                        | E::Target(_)
-                        | E::Gate(_)
-                        | E::Spinner(_)
-                        | E::Bumper(_)
-                        | E::Slingshot(_)
-                        | E::DropTarget(_)
-                )
-            }
-            Self::Passable => matches!(element, E::Rollover(_) | E::Gate(_) | E::Spinner(_) | E::Hole(_)),
-            Self::Light => matches!(element, E::Light(_)),
-            Self::Target => matches!(element, E::DropTarget(_)),
-            Self::Spinner => matches!(element, E::Spinner(_)),
-            Self::Saucer => matches!(element, E::Saucer(_)),
-            Self::Magnet => matches!(element, E::Magnet(_)),
-        }
-    }
-
-    fn expected(self) -> &'static str {
-        match self {
-            Self::Hittable => "something that a ball can hit",
-            Self::Passable => "a Rollover, Gate, Spinner or Hole",
-            Self::Light => "a Light",
-            Self::Target => "a DropTarget",
-            Self::Spinner => "a Spinner",
-            Self::Saucer => "a Saucer",
-            Self::Magnet => "a Magnet",
-        }
-    }
-}
+/// Most conditions of a rule.
+const MOST_CONDITIONS: usize = 16;
+/// Longest time for which lights are lit and balls are saved, seconds. Its ticks fit 32 bits at the highest tick rate, twice.
+pub const MOST_SECONDS: f64 = 600.0;
+/// Shortest time for which lights are lit, seconds.
+pub(super) const LEAST_SECONDS: f64 = 0.1;
+/// Most extra balls that a table's rules may give a player in a game: a state has room for so many.
+pub const MOST_EXTRA_BALLS: u8 = 7;
 
 /// Whether the rules can put more than one ball into play.
 pub(super) fn serves(rules: &RulesFile) -> bool {
@@ -158,107 +169,66 @@ pub(super) fn serves(rules: &RulesFile) -> bool {
 pub(super) fn resolve(context: &Context<'_>, rules: &RulesFile) -> Result<RuleBook, TableError> {
     context.in_range(Spot::Rules, "balls", f64::from(rules.balls), 1.0, 100.0, "3")?;
     context.in_range(Spot::Rules, "max_multiplier", f64::from(rules.max_multiplier), 1.0, 100.0, "6")?;
+    let most_extra = f64::from(MOST_EXTRA_BALLS);
+    context.in_range(Spot::Rules, "max_extra_balls", f64::from(rules.max_extra_balls), 0.0, most_extra, "1")?;
     let mut book = RuleBook::empty(rules.balls, rules.max_multiplier);
+    book.max_extra_balls = rules.max_extra_balls;
+    book.ball_save = rules.ball_save.as_ref().map(|save| ball_save(context, save)).transpose()?;
     if rules.on.len() > MOST_RULES {
         let problem = format!("{} rules are more than {MOST_RULES}", rules.on.len());
         return Err(context.error(Spot::Rules, Some("on"), problem));
     }
     for (place, rule) in rules.on.iter().enumerate() {
         let spot = Spot::Rule(place);
-        if rule.run.len() > MOST_ACTIONS {
-            let problem = format!("{} actions in one rule are more than {MOST_ACTIONS}", rule.run.len());
-            return Err(context.error(spot, Some("run"), problem));
-        }
+        let count = |field, found: usize, most, what| {
+            let problem = || format!("{found} {what} in one rule are more than {most}");
+            if found > most { Err(context.error(spot, Some(field), problem())) } else { Ok(()) }
+        };
+        count("when", rule.when.len(), MOST_CONDITIONS, "conditions")?;
+        count("run", rule.run.len(), MOST_ACTIONS, "actions")?;
         let in_event = |problem| context.error(spot, Some("event"), problem);
-        let trigger = trigger(context, &rule.event).map_err(in_event)?;
+        let trigger = rule_names::trigger(context, &rule.event).map_err(in_event)?;
+        let mut when = Vec::new();
+        for (place, condition) in rule.when.iter().enumerate() {
+            let in_condition = |problem| context.error_at(spot, Some("when"), Some(place), problem);
+            when.push(rule_names::condition(context, condition).map_err(in_condition)?);
+        }
         let mut commands = Vec::new();
         for (place, action) in rule.run.iter().enumerate() {
             let in_action = |problem| context.error_at(spot, Some("run"), Some(place), problem);
             commands.push(command(context, action, &mut book.messages).map_err(in_action)?);
         }
-        book.rules.push(Rule { trigger, commands });
+        book.rules.push(Rule { trigger, when, commands });
     }
     if let Some(crowd) = &rules.crowd {
         book.crowd = Some(crowd::resolve(context, crowd, &mut book.messages)?);
     }
+    has_room_for_timers(context, &book)?;
     Ok(book)
 }
 
-fn trigger(context: &Context<'_>, event: &EventFile) -> Result<Trigger, String> {
-    Ok(match event {
-        EventFile::Hit(name) => Trigger::Hit(elements(context, name, Kind::Hittable)?),
-        EventFile::Pass(name) => Trigger::Pass(elements(context, name, Kind::Passable)?),
-        EventFile::AllLit(name) => Trigger::AllLit(bits(context, name, Kind::Light)?),
-        EventFile::AllDown(name) => Trigger::AllDown(bits(context, name, Kind::Target)?),
-        EventFile::Spin(name) => Trigger::Spin(elements(context, name, Kind::Spinner)?),
-        EventFile::Hold(name) => Trigger::Hold(elements(context, name, Kind::Saucer)?),
-        EventFile::AllHeld(name) => Trigger::AllHeld(bits(context, name, Kind::Saucer)?),
-        EventFile::BallStart => Trigger::BallStart,
-        EventFile::BallEnd => Trigger::BallEnd,
-    })
+fn ball_save(context: &Context<'_>, save: &BallSaveFile) -> Result<BallSaveRules, TableError> {
+    let spot = Spot::BallSave;
+    context.in_range(spot, "lasts", save.lasts, LEAST_SECONDS, MOST_SECONDS, "10 s")?;
+    context.in_range(spot, "saves", f64::from(save.saves), 0.0, 100.0, "1")?;
+    context.in_range(spot, "grace", save.grace, 0.0, 10.0, "2 s")?;
+    let light = save.light.as_ref().map(|name| bits(context, name, Kind::Light)).transpose();
+    let light = light.map_err(|problem| context.error(spot, Some("light"), problem))?;
+    Ok(BallSaveRules { lasts: save.lasts, saves: save.saves, grace: save.grace, light: light.unwrap_or(0) })
 }
 
-pub(super) fn command(
-    context: &Context<'_>,
-    action: &ActionFile,
-    messages: &mut Vec<String>,
-) -> Result<Command, String> {
-    Ok(match action {
-        ActionFile::Score(points) => Command::Score(points_in_range(*points)?),
-        ActionFile::Bonus(points) => Command::Bonus(points_in_range(*points)?),
-        ActionFile::RaiseMultiplier => Command::RaiseMultiplier,
-        ActionFile::CollectBonus => Command::CollectBonus,
-        ActionFile::Light(name) => Command::Light(bits(context, name, Kind::Light)?),
-        ActionFile::Unlight(name) => Command::Unlight(bits(context, name, Kind::Light)?),
-        ActionFile::Raise(name) => Command::Raise(bits(context, name, Kind::Target)?),
-        ActionFile::Lower(name) => Command::Lower(bits(context, name, Kind::Target)?),
-        ActionFile::Kick(name) => Command::Kick(bits(context, name, Kind::Saucer)?),
-        ActionFile::Attract(name) => Command::Attract(bits(context, name, Kind::Magnet)?),
-        ActionFile::Release(name) => Command::Release(bits(context, name, Kind::Magnet)?),
-        ActionFile::Serve => Command::Serve,
-        ActionFile::Message(text) => {
-            if !is_printable(text) {
-                return Err(unprintable(text));
-            }
-            messages.push(text.clone());
-            Command::Message((messages.len() - 1) as u16)
-        }
-    })
-}
-
-/// No single rule may make a score overflow within any number of years.
-pub(super) fn points_in_range(points: u64) -> Result<u64, String> {
-    if points <= MOST_POINTS {
-        Ok(points)
-    } else {
-        Err(format!("{points} points are more than {MOST_POINTS}; at most that many would be right for one event"))
+/// A state has room for so many lights that go out by themselves.
+fn has_room_for_timers(context: &Context<'_>, book: &RuleBook) -> Result<(), TableError> {
+    let of_crowd = book.crowd.iter().flat_map(|crowd| &crowd.actions).flat_map(|action| [&action.run, &action.undo]);
+    let commands = book.rules.iter().map(|rule| &rule.commands).chain(of_crowd).flatten();
+    let timed = commands.fold(0_u64, |bits, command| match command {
+        Command::LightFor(set, _) => bits | set,
+        _ => bits,
+    });
+    let found = timed.count_ones() as usize;
+    if found <= MOST_TIMED_LIGHTS {
+        return Ok(());
     }
-}
-
-/// The elements that a name stands for: itself, or the members of a group.
-fn elements(context: &Context<'_>, name: &str, kind: Kind) -> Result<Vec<u16>, String> {
-    let names = context.file.groups.get(name).map_or_else(|| vec![name.to_owned()], Clone::clone);
-    let mut found = Vec::new();
-    for member in &names {
-        let index = context
-            .index_of(member)
-            .ok_or_else(|| format!("{name:?} is neither an element nor a group; {} would be right", kind.expected()))?;
-        if !kind.fits(&context.file.elements[usize::from(index)]) {
-            let who = if member == name { format!("{name:?}") } else { format!("{member:?} of the group {name:?}") };
-            return Err(format!("{who} is of the wrong kind; {} would be right", kind.expected()));
-        }
-        found.push(index);
-    }
-    Ok(found)
-}
-
-/// The same, as one bit each among the elements of that kind.
-fn bits(context: &Context<'_>, name: &str, kind: Kind) -> Result<u64, String> {
-    let all: Vec<u16> = (0_u16..).zip(&context.file.elements).filter(|(_, e)| kind.fits(e)).map(|(i, _)| i).collect();
-    let mut bits = 0;
-    for index in elements(context, name, kind)? {
-        // `check` allows at most 64 of each kind.
-        bits |= all.iter().position(|&i| i == index).map_or(0, |place| 1_u64 << place);
-    }
-    Ok(bits)
+    let problem = format!("{found} lights that are lit for a time are more than {MOST_TIMED_LIGHTS}");
+    Err(context.error(Spot::Rules, Some("on"), problem))
 }

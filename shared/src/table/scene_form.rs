@@ -340,7 +340,14 @@ fn lowered(scene: &SceneFile, origin: DVec2) -> (TableFile, Bounds) {
         materials,
         elements,
         groups: BTreeMap::new(),
-        rules: RulesFile { balls: 0, max_multiplier: 1, on: Vec::new(), crowd: None },
+        rules: RulesFile {
+            balls: 0,
+            max_multiplier: 1,
+            max_extra_balls: 0,
+            ball_save: None,
+            on: Vec::new(),
+            crowd: None,
+        },
     };
     (file, bounds)
 }
