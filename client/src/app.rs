@@ -1,11 +1,13 @@
 //! The window's program: [`App::frame`] is the main flow, once a frame.
 
+mod menus;
+
 use std::sync::Arc;
 use std::time::Instant;
 
 use macroquad::texture::get_screen_data;
 use macroquad::window::{screen_dpi_scale, screen_height, screen_width, set_fullscreen};
-use shared::protocol::{Hello, Role};
+use shared::protocol::Hello;
 use shared::table::Table;
 
 use crate::arguments::{Goal, Options};
@@ -15,13 +17,13 @@ use crate::controls::Controls;
 use crate::embedded::Embedded;
 use crate::input::{Keyboard, Wish};
 use crate::limiter::Limiter;
+use crate::menu::{Menu, Page};
 use crate::net::{Connection, Incoming};
 use crate::render::Renderer;
 use crate::report::Report;
-use crate::screens;
+use crate::screens::{self, Words};
 use crate::session::Session;
 use crate::settings::Store;
-use crate::streams::StreamChoice;
 use crate::view::View;
 
 /// Whether there is a next frame.
@@ -36,8 +38,8 @@ pub(crate) enum Step {
 /// How the client stands to its server.
 #[derive(Debug)]
 enum State {
-    /// No answer yet from that address.
-    Connecting(Connection, String),
+    /// No answer yet.
+    Connecting(Connection),
     /// A game is to be seen.
     Live(Connection, Box<Session>),
     /// The connection has ended, or never stood.
@@ -51,12 +53,19 @@ const MOST_HEARD: usize = 256;
 pub(crate) struct App {
     options: Options,
     store: Store,
+    /// What it is connected to, or to be.
+    goal: Goal,
+    /// The table that the title is shown over.
+    home: Arc<Table>,
     /// All times are seconds since then.
     epoch: Instant,
     state: State,
     embedded: Option<Embedded>,
     keyboard: Keyboard,
     controls: Controls,
+    menu: Menu,
+    /// When somebody chose to play who has no place yet.
+    wants_place: Option<f64>,
     renderer: Renderer,
     audio: Audio,
     /// The table that the renderer draws.
@@ -80,6 +89,10 @@ impl App {
             embedded: None,
             keyboard: Keyboard::new(),
             controls: Controls::new(store.settings.keys.clone()),
+            menu: Menu::default(),
+            wants_place: None,
+            goal: options.goal.clone(),
+            home: Arc::clone(&backdrop),
             renderer: Renderer::new(&backdrop.file),
             audio: Audio::start(),
             view: View::default(),
@@ -108,11 +121,13 @@ impl App {
             session.advance(now, &mut self.controls);
             send(connection, session);
         }
+        self.settle(now);
         self.let_hear();
         // 4. That as plain data.
         self.assemble(now);
         // 5. The picture.
-        self.renderer.draw(&self.view);
+        let menu = self.menu.view(&self.facts());
+        self.renderer.draw(&self.view, menu.as_ref());
         self.report.drawn(now);
         self.note_window();
         let is_pictured = self.take_picture(now);
@@ -144,11 +159,12 @@ impl App {
 
     /// Connects, or tries again; a game's own server that has died is started anew.
     fn connect(&mut self) {
-        let address = match &self.options.goal {
+        let address = match &self.goal {
             Goal::Server { address, .. } => address.clone(),
-            Goal::Own(table) => {
+            Goal::Own(table) | Goal::Hosted(table, _) => {
+                let mode = if let Goal::Hosted(_, mode) = self.goal { Some(mode) } else { None };
                 let running = self.embedded.take().filter(Embedded::is_alive);
-                match running.map_or_else(|| Embedded::start(Arc::clone(table)), Ok) {
+                match running.map_or_else(|| Embedded::start(Arc::clone(table), mode), Ok) {
                     Ok(embedded) => self.embedded.insert(embedded).address().to_string(),
                     Err(error) => return self.lose("NO SERVER HERE", &error),
                 }
@@ -157,18 +173,12 @@ impl App {
         let (role, choice) = self.role();
         let name = self.options.name.clone().unwrap_or_else(|| self.store.settings.player());
         let hello = Hello { name, role, stream: choice.stream(role) };
-        match Connection::open(address.clone(), hello, self.epoch) {
-            Ok(connection) => self.state = State::Connecting(connection, address),
+        match Connection::open(address, hello, self.epoch) {
+            Ok(connection) => {
+                self.state = State::Connecting(connection);
+                self.menu.show(if let Goal::Own(_) = self.goal { Page::Title } else { Page::Connecting });
+            }
             Err(error) => self.lose(error.headline(), &error),
-        }
-    }
-
-    /// What the program comes for, and the streams that it wants.
-    fn role(&self) -> (Role, StreamChoice) {
-        match self.options.goal {
-            Goal::Server { role, choice, .. } => (role, choice),
-            // It is all on this machine: as smooth as can be.
-            Goal::Own(_) => (Role::Watch, StreamChoice { form: None, hz: Some(60) }),
         }
     }
 
@@ -181,11 +191,13 @@ impl App {
             false
         };
         tracing::warn!("{error}");
-        let reason = match &self.options.goal {
+        let reason = match &self.goal {
             Goal::Server { address, .. } => format!("{headline}: {address}"),
-            Goal::Own(_) => headline.to_owned(),
+            Goal::Own(_) | Goal::Hosted(..) => headline.to_owned(),
         };
         self.state = State::Lost { was_live, reason };
+        self.controls.release_all();
+        self.menu.show(Page::Lost);
     }
 
     /// 1. Takes in everything that has come.
@@ -194,7 +206,7 @@ impl App {
         // A server that floods must not keep a frame from being drawn.
         for _ in 0..MOST_HEARD {
             let incoming = match &mut self.state {
-                State::Connecting(connection, _) | State::Live(connection, _) => connection.poll(),
+                State::Connecting(connection) | State::Live(connection, _) => connection.poll(),
                 State::Lost { .. } => None,
             };
             let Some(incoming) = incoming else { return };
@@ -218,26 +230,32 @@ impl App {
             self.renderer = Renderer::new(&self.table.file);
         }
         let before = std::mem::replace(&mut self.state, State::Lost { was_live: false, reason: String::new() });
-        if let State::Connecting(connection, _) = before {
-            self.state = State::Live(connection, Box::new(session));
+        if let State::Connecting(connection) = before {
+            let mut session = Box::new(session);
+            match self.goal {
+                Goal::Own(_) if self.wants_place.is_some() => session.play(),
+                Goal::Own(_) => {}
+                Goal::Hosted(..) => self.menu.show(Page::Opened),
+                Goal::Server { .. } => self.menu.close(),
+            }
+            self.state = State::Live(connection, session);
         }
     }
 
     /// 2. Handles input; `false` if the person wants to quit.
     fn poll_input(&mut self) -> bool {
         let mut wishes = Vec::new();
-        self.keyboard.poll(&mut self.controls, |wish| wishes.push(wish));
+        let mut events = Vec::new();
+        if self.menu.is_open() {
+            self.keyboard.poll_menu(&mut events, |wish| wishes.push(wish));
+        } else {
+            self.keyboard.poll(&mut self.controls, |wish| wishes.push(wish));
+        }
         for wish in wishes {
             match (wish, &mut self.state) {
                 (Wish::Go, State::Live(_, session)) => session.play(),
-                (Wish::Go, State::Lost { .. }) => self.connect(),
-                (Wish::Go, State::Connecting(..)) => {}
-                (Wish::Back, State::Live(_, session)) => {
-                    if !session.leave() {
-                        return false;
-                    }
-                }
-                (Wish::Back, _) => return false,
+                (Wish::Back, _) => self.open_pause(),
+                (Wish::Pause, State::Live(_, session)) if session.can_pause() => self.open_pause(),
                 (Wish::FullScreen, _) => {
                     let is_full = &mut self.store.settings.full_screen;
                     *is_full = !*is_full;
@@ -247,11 +265,10 @@ impl App {
                 (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
                 (Wish::Vote(action), State::Live(_, session)) => session.vote(action),
                 (Wish::Look(further), State::Live(_, session)) => session.look(further),
-                (Wish::Pause, State::Live(_, session)) => session.pause(!session.is_paused()),
-                (Wish::Vote(_) | Wish::Look(_) | Wish::Pause, _) => {}
+                (Wish::Go | Wish::Pause | Wish::Vote(_) | Wish::Look(_), _) => {}
             }
         }
-        true
+        self.menu_input(events)
     }
 
     /// 3. What happened on the board that is seen large, to be heard.
@@ -259,7 +276,7 @@ impl App {
         self.audio.set_volume(self.options.volume.unwrap_or(self.store.settings.volume));
         let State::Live(_, session) = &mut self.state else { return };
         let events = session.take_fresh();
-        let (board, is_own) = (session.main_board(), matches!(self.options.goal, Goal::Own(_)));
+        let (board, is_own) = (session.main_board(), matches!(self.goal, Goal::Own(_)));
         let Some(moment) = session.moment(board) else { return };
         let is_attract = is_own && session.place().is_none();
         self.audio.hear(&Scene { table: session.table(), board, moment: &moment, events: &events, is_attract });
@@ -272,14 +289,21 @@ impl App {
                 let words = screens::live(session, &self.store.settings.keys, now);
                 assemble::view_of(session, words, now, self.shows_overlay)
             }
-            State::Connecting(_, address) => assemble::still_view(&self.table, screens::connecting(address), now),
-            State::Lost { was_live, reason } => {
-                let words = screens::lost(*was_live, reason);
-                // What was seen last stands still behind the words.
+            State::Connecting(_) | State::Lost { .. } => {
+                let message = if let State::Connecting(_) = self.state { "CONNECTING" } else { "NO CONNECTION" };
+                let words = Words { message: message.to_owned(), ..Words::default() };
+                // What was seen last stands still behind the menu.
                 let last = std::mem::take(&mut self.view);
                 assemble::over(last, &self.table, words, now)
             }
         };
+        if self.menu.is_open() {
+            let hud = &mut self.view.hud;
+            (hud.banner, hud.sub_banner) = (String::new(), String::new());
+            if self.menu.page() == Some(Page::Title) {
+                hud.keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
+            }
+        }
         if !self.shows_overlay {
             // Of a game that was lost.
             self.view.overlay = None;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Parser, Subcommand};
-use shared::protocol::{Form, RATES, Role, check_name};
+use shared::protocol::{Form, Mode, RATES, Role, check_name};
 use shared::table::Table;
 use starball_server::load_table;
 
@@ -58,7 +58,7 @@ enum Command {
 #[derive(Debug, clap::Args)]
 struct Connect {
     /// Where the server listens.
-    #[arg(long, value_name = "HOST:PORT", value_parser = address)]
+    #[arg(long, value_name = "HOST:PORT", value_parser = check_address)]
     connect: String,
     /// What the server is to send: what changed, or what was pressed (much less). Left out: state while you play, inputs
     /// while you watch.
@@ -74,6 +74,8 @@ struct Connect {
 pub(crate) enum Goal {
     /// A table of one's own.
     Own(Arc<Table>),
+    /// The same, open for others, in a mode; from the menu only.
+    Hosted(Arc<Table>, Mode),
     /// Somebody's server: to play there, or to watch.
     Server {
         /// Where it listens.
@@ -180,8 +182,11 @@ fn seconds(text: &str) -> Result<f64, String> {
     }
 }
 
-/// `HOST:PORT`; whether the host exists is found out later.
-fn address(text: &str) -> Result<String, String> {
+/// Checks `HOST:PORT`; whether the host exists is found out later.
+///
+/// # Errors
+/// What would be right.
+pub(crate) fn check_address(text: &str) -> Result<String, String> {
     let right = "HOST:PORT would be right, such as 192.168.1.20:7777 or [::1]:7777";
     let (host, port) = text.rsplit_once(':').ok_or(right)?;
     let bare = host.strip_prefix('[').and_then(|host| host.strip_suffix(']'));
@@ -214,12 +219,12 @@ mod tests {
     #[test]
     fn addresses() {
         for good in ["127.0.0.1:7777", "localhost:1", "[::1]:7777", "a.example:65535"] {
-            assert_eq!(address(good).as_deref(), Ok(good));
+            assert_eq!(check_address(good).as_deref(), Ok(good));
         }
         for bad in
             ["", "localhost", "localhost:", ":7777", "localhost:0", "localhost:65536", "::1:7777", "a b:1", "[x]:1"]
         {
-            assert!(address(bad).is_err(), "{bad}");
+            assert!(check_address(bad).is_err(), "{bad}");
         }
     }
 

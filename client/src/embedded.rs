@@ -1,13 +1,17 @@
-//! The server that the native game brings along: one table on this machine, for this machine.
+//! The server that the native game brings along: one table on this machine, for this machine or for others, too.
 
 use std::net::{Ipv4Addr, SocketAddr, TcpListener};
 use std::sync::Arc;
 use std::thread::JoinHandle;
 
+use shared::protocol::Mode;
 use shared::table::Table;
 use starball_server::{Account, Config, ServerError};
 use thiserror::Error;
 use tokio::sync::oneshot;
+
+/// The port of a server that was not told another.
+pub(crate) const USUAL_PORT: u16 = 7777;
 
 /// Why there is no embedded server.
 #[derive(Debug, Error)]
@@ -23,20 +27,28 @@ pub(crate) enum EmbeddedError {
 /// A server on a thread of this process. Ends when it is dropped.
 #[derive(Debug)]
 pub(crate) struct Embedded {
+    /// With the address of this machine, as it is reached from here.
     address: SocketAddr,
     stop: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<Result<Account, ServerError>>>,
 }
 
 impl Embedded {
-    /// Starts a server for `table` on a free port that only this machine reaches.
+    /// Starts a server for `table`: without a mode on a free port that only this machine reaches, with one on
+    /// [`USUAL_PORT`], if that is free, and for everybody.
     ///
     /// # Errors
     /// If there is no socket, thread or runtime for it.
-    pub(crate) fn start(table: Arc<Table>) -> Result<Self, EmbeddedError> {
-        let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?;
+    pub(crate) fn start(table: Arc<Table>, mode: Option<Mode>) -> Result<Self, EmbeddedError> {
+        let (listener, config) = match mode {
+            None => (TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, Config { pause: true, ..Config::new(table) }),
+            Some(mode) => {
+                let everywhere = |port| TcpListener::bind((Ipv4Addr::UNSPECIFIED, port));
+                (everywhere(USUAL_PORT).or_else(|_| everywhere(0))?, Config::new(table).mode(mode))
+            }
+        };
         listener.set_nonblocking(true)?;
-        let address = listener.local_addr()?;
+        let address = SocketAddr::from((Ipv4Addr::LOCALHOST, listener.local_addr()?.port()));
         // One worker: the window's thread and the network's thread want processors too.
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(1).enable_all().build()?;
         let (stop, stopped) = oneshot::channel();
@@ -44,7 +56,6 @@ impl Embedded {
             let _within = runtime.enter();
             tokio::net::TcpListener::from_std(listener)?
         };
-        let config = Config { pause: true, ..Config::new(table) };
         let thread = std::thread::Builder::new().name("server".to_owned()).spawn(move || {
             // Told to stop, or dropped without a word: the same.
             let shutdown = async { drop(stopped.await) };
@@ -56,6 +67,16 @@ impl Embedded {
     /// Where it listens.
     pub(crate) fn address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// Where others reach it, as they would type it.
+    pub(crate) fn address_for_others(&self) -> String {
+        format!("{}:{}", own_address(), self.address.port())
+    }
+
+    /// Ends it without making anybody wait for that.
+    pub(crate) fn retire(self) {
+        std::thread::spawn(move || drop(self));
     }
 
     /// Whether it still runs.
@@ -74,6 +95,16 @@ impl Drop for Embedded {
             None => {}
         }
     }
+}
+
+/// This machine's address as others see it, or a word that stands for it. Connecting a UDP socket sends nothing; it
+/// only finds out which way out there is.
+pub(crate) fn own_address() -> String {
+    let address = std::net::UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
+        socket.connect("192.0.2.1:9")?;
+        socket.local_addr()
+    });
+    address.map_or_else(|_| "HOST".to_owned(), |address| address.ip().to_string())
 }
 
 /// Serves `table` until Ctrl-C, with nobody but the bot at it; `ready` learns the address.
@@ -102,7 +133,7 @@ mod tests {
     #[test]
     fn runs_until_dropped() {
         let table = Arc::new(Table::shipped("classic").unwrap().unwrap());
-        let embedded = Embedded::start(table).unwrap();
+        let embedded = Embedded::start(table, None).unwrap();
         assert!(embedded.is_alive() && embedded.address().ip().is_loopback());
         let address = embedded.address();
         drop(std::net::TcpStream::connect(address).unwrap());

@@ -5,15 +5,16 @@ use macroquad::input::utils::{register_input_subscriber, repeat_all_miniquad_inp
 use macroquad::miniquad::{EventHandler, KeyMods};
 
 use crate::controls::Controls;
+use crate::menu::{MenuEvent, MenuInput, MenuSorter};
 
 /// What somebody at the keyboard wants, beside playing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Wish {
     /// Enter: play, play again, try again.
     Go,
-    /// Escape: leave the seat, or the game.
+    /// Escape: the menu.
     Back,
-    /// P: let the game stand still, or go on.
+    /// P: let the game stand still.
     Pause,
     /// F11.
     FullScreen,
@@ -56,6 +57,31 @@ impl Keyboard {
     pub(crate) fn poll(&self, controls: &mut Controls, wish: impl FnMut(Wish)) {
         repeat_all_miniquad_input(&mut Sorter { controls, wish }, self.subscriber);
     }
+
+    /// The same while a menu is open: what is for it goes to `events`, and the function keys are wishes as ever.
+    pub(crate) fn poll_menu(&self, events: &mut Vec<MenuEvent>, mut wish: impl FnMut(Wish)) {
+        let mut sorter = MenuSorter::default();
+        repeat_all_miniquad_input(&mut sorter, self.subscriber);
+        for event in sorter.0 {
+            match event {
+                MenuEvent::Input(MenuInput::Key(key)) => match function_key(key) {
+                    Some(known) => wish(known),
+                    None => events.push(event),
+                },
+                _ => events.push(event),
+            }
+        }
+    }
+}
+
+/// What a function key is for, everywhere.
+fn function_key(key: KeyCode) -> Option<Wish> {
+    Some(match key {
+        KeyCode::F11 => Wish::FullScreen,
+        KeyCode::F3 => Wish::Statistics,
+        KeyCode::F4 => Wish::Overlay,
+        _ => return None,
+    })
 }
 
 /// Sorts events into controls and wishes.
@@ -73,13 +99,13 @@ impl<W: FnMut(Wish)> EventHandler for Sorter<'_, W> {
         if repeat {
             return;
         }
+        if let Some(wish) = function_key(key) {
+            return (self.wish)(wish);
+        }
         match key {
             KeyCode::Enter | KeyCode::KpEnter => (self.wish)(Wish::Go),
             KeyCode::Escape => (self.wish)(Wish::Back),
             KeyCode::P | KeyCode::Pause => (self.wish)(Wish::Pause),
-            KeyCode::F11 => (self.wish)(Wish::FullScreen),
-            KeyCode::F3 => (self.wish)(Wish::Statistics),
-            KeyCode::F4 => (self.wish)(Wish::Overlay),
             KeyCode::Tab => (self.wish)(Wish::Look(1)),
             _ => {
                 let vote = VOTES.iter().zip(0..).find(|(keys, _)| keys.contains(&key));

@@ -1,7 +1,8 @@
 //! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
 //!
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
-//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `settings` (what they have chosen), `screens`, `effects`,
+//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `settings` (what they have chosen),
+//! `menu`, `screens`, `effects`,
 //! `overlay` and `assemble` (what goes into a `view`), `render` (draws it), `audio` (what is heard).
 
 mod app;
@@ -15,6 +16,7 @@ mod effects;
 mod embedded;
 mod input;
 mod limiter;
+mod menu;
 mod moment;
 mod net;
 mod overlay;
@@ -87,7 +89,7 @@ fn log(level: &str) {
 fn in_window(options: Options) -> Result<(), String> {
     options.screenshot.as_ref().map_or(Ok(()), Screenshot::reserve)?;
     let backdrop = match &options.goal {
-        Goal::Own(table) => Arc::clone(table),
+        Goal::Own(table) | Goal::Hosted(table, _) => Arc::clone(table),
         // Until the server has sent its own.
         Goal::Server { .. } => first_shipped()?,
     };
@@ -132,7 +134,7 @@ fn without_window(problem: &str, table: Arc<Table>) -> Result<(), String> {
             "{problem}: the bot plays at {address}, for this machine alone; to watch from another one, run \
              `cargo run --release -p starball-server -- --listen 0.0.0.0:7777` here and `cargo run --release -p \
              starball-client -- watch --connect {}:7777` there",
-            own_address()
+            embedded::own_address()
         ));
     });
     say(&account.map_err(|error| error.to_string())?);
@@ -142,14 +144,4 @@ fn without_window(problem: &str, table: Arc<Table>) -> Result<(), String> {
 /// Prints a line. Whoever started the game may have closed its output; that is no reason to end.
 fn say(line: &dyn std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{line}");
-}
-
-/// This machine's address as others see it, or a word that stands for it. Connecting a UDP socket sends nothing; it
-/// only finds out which way out there is.
-fn own_address() -> String {
-    let address = std::net::UdpSocket::bind("0.0.0.0:0").and_then(|socket| {
-        socket.connect("192.0.2.1:9")?;
-        socket.local_addr()
-    });
-    address.map_or_else(|_| "HOST".to_owned(), |address| address.ip().to_string())
 }

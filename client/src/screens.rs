@@ -33,26 +33,6 @@ const BLINK: (f64, f64) = (0.9, 0.35);
 /// Seconds for which each of two lines that take turns is there.
 const EACH_LINE: f64 = 1.6;
 
-/// While there is no answer yet.
-pub(crate) fn connecting(address: &str) -> Words {
-    Words {
-        message: "CONNECTING".to_owned(),
-        keys: keys(&[("ESC", "QUIT")]),
-        banner: "CONNECTING".to_owned(),
-        sub_banner: address.to_owned(),
-    }
-}
-
-/// After the end of a connection, or of an attempt at one.
-pub(crate) fn lost(was_live: bool, reason: &str) -> Words {
-    Words {
-        message: "ENTER: TRY AGAIN".to_owned(),
-        keys: keys(&[("ENTER", "TRY AGAIN"), ("ESC", "QUIT")]),
-        banner: if was_live { "CONNECTION LOST" } else { "NO CONNECTION" }.to_owned(),
-        sub_banner: reason.to_owned(),
-    }
-}
-
 /// How the room is played, and against whom.
 pub(crate) fn title(session: &Session) -> String {
     match session.mode() {
@@ -69,10 +49,10 @@ pub(crate) fn title(session: &Session) -> String {
 pub(crate) fn live(session: &Session, bindings: &Bindings, now: f64) -> Words {
     let main = session.main_board();
     let Some(moment) = session.moment(main) else {
-        return Words { message: "WELCOME".to_owned(), ..connecting("") };
+        return Words { message: "WELCOME".to_owned(), ..Words::default() };
     };
     if session.is_paused() {
-        return paused(session.can_pause());
+        return paused();
     }
     let standing = Standing::of(session, &moment);
     let (banner, sub_banner) = standing.banner(now);
@@ -97,15 +77,10 @@ pub(crate) fn live(session: &Session, bindings: &Bindings, now: f64) -> Words {
     Words { message, keys, banner, sub_banner }
 }
 
-/// While the room stands still. `can_go_on`: the person can change that.
-fn paused(can_go_on: bool) -> Words {
-    let go_on: &[_] = if can_go_on { &[("P", "GO ON")] } else { &[] };
-    Words {
-        message: "PAUSED".to_owned(),
-        keys: keys(&[go_on, &[("ESC", "LEAVE")]].concat()),
-        banner: "PAUSED".to_owned(),
-        sub_banner: if can_go_on { "P: GO ON".to_owned() } else { String::new() },
-    }
+/// While the room stands still.
+fn paused() -> Words {
+    let word = "PAUSED".to_owned();
+    Words { message: word.clone(), keys: keys(&[("ESC", "MENU")]), banner: word, sub_banner: String::new() }
 }
 
 /// What who has no place can do besides.
@@ -198,18 +173,18 @@ impl Standing {
     fn keys(&self, bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
         match self {
             Self::Attract { .. } => {
-                keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "QUIT")])
+                keys(&[("ENTER", "PLAY"), ("F4", "PHYSICS"), ("F11", "FULL SCREEN"), ("ESC", "MENU")])
             }
             Self::Watching { can_join: true } => {
-                keys(&[("ENTER", "JOIN THE GAME"), ("F4", "PHYSICS"), ("ESC", "QUIT")])
+                keys(&[("ENTER", "JOIN THE GAME"), ("F4", "PHYSICS"), ("ESC", "MENU")])
             }
-            Self::Watching { can_join: false } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
-            Self::InLine(_) => keys(&[("ESC", "LEAVE THE LINE")]),
-            Self::Over { has_place: true, .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "LEAVE")]),
-            Self::Over { line: Some(_), .. } => keys(&[("ESC", "LEAVE THE LINE")]),
-            Self::Over { .. } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "QUIT")]),
+            Self::Watching { can_join: false } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "MENU")]),
+            Self::InLine(_) => keys(&[("ESC", "MENU")]),
+            Self::Over { has_place: true, .. } => keys(&[("ENTER", "PLAY AGAIN"), ("ESC", "MENU")]),
+            Self::Over { line: Some(_), .. } => keys(&[("ESC", "MENU")]),
+            Self::Over { .. } => keys(&[("ENTER", "GET IN LINE"), ("F4", "PHYSICS"), ("ESC", "MENU")]),
             Self::Plunger | Self::Turn => playing_keys(bindings, can_nudge),
-            Self::Waiting(_) => keys(&[("ESC", "LEAVE")]),
+            Self::Waiting(_) => keys(&[("ESC", "MENU")]),
         }
     }
 
@@ -234,7 +209,7 @@ impl Standing {
 }
 
 /// The keys of whoever has the turn, as they are bound; what has no key is left out.
-fn playing_keys(bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
+pub(crate) fn playing_keys(bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
     let first = |controls: &[Control]| {
         let labels = controls.iter().map(|&control| bindings.labels(control, 1));
         labels.filter(|label| !label.is_empty()).collect::<Vec<_>>().join(", ")
@@ -245,7 +220,7 @@ fn playing_keys(bindings: &Bindings, can_nudge: bool) -> Vec<(String, String)> {
         (bindings.labels(Control::RightFlipper, 2), "RIGHT"),
         (first(&[Control::Plunger]), "PLUNGER"),
         (if can_nudge { first(&nudges) } else { String::new() }, "NUDGE"),
-        ("ESC".to_owned(), "LEAVE"),
+        ("ESC".to_owned(), "MENU"),
     ];
     let rows = rows.into_iter().filter(|(key, _)| !key.is_empty());
     rows.map(|(key, does)| (key, does.to_owned())).collect()

@@ -26,9 +26,15 @@ impl Sprite {
 
     /// The right part of the sprite, `width` pixels of it.
     pub(super) fn right_part(self, width: f32) -> Self {
-        let share = (width / self.size.x).clamp(0.0, 1.0);
-        let uv = Rect::new(self.uv.right() - self.uv.w * share, self.uv.y, self.uv.w * share, self.uv.h);
-        Self { uv, size: vec2(self.size.x * share, self.size.y) }
+        let width = width.clamp(0.0, self.size.x);
+        self.cut(Rect::new(self.size.x - width, 0.0, width, self.size.y))
+    }
+
+    /// A part of the sprite, in its own pixels.
+    pub(super) fn cut(self, part: Rect) -> Self {
+        let scale = vec2(self.uv.w, self.uv.h) / self.size;
+        let (x, y) = (self.uv.x + part.x * scale.x, self.uv.y + part.y * scale.y);
+        Self { uv: Rect::new(x, y, part.w * scale.x, part.h * scale.y), size: part.size() }
     }
 }
 

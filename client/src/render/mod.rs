@@ -4,7 +4,7 @@
 //! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s): the room, and the whole table, which is shown through an
 //! opening and scrolls if it is longer. What moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`, `atlas`) and
 //! placed by `scene`, `balls`, `mechanisms`, `flashes`, `overlay`, `hud` and `crowd`, as `lights`, `sparks` and `popups` say;
-//! `minis` does both for boards that are small. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames
+//! `minis` does both for boards that are small, `menu` for what lies over it all. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames
 //! only.
 
 mod atlas;
@@ -22,6 +22,7 @@ mod inserts;
 mod layout;
 mod lights;
 mod mechanisms;
+mod menu;
 mod minis;
 mod overlay;
 mod palette;
@@ -36,12 +37,13 @@ mod sprites;
 
 use macroquad::color::WHITE;
 use macroquad::material::{Material, MaterialParams, gl_use_default_material, gl_use_material, load_material};
-use macroquad::math::{Rect, vec2};
+use macroquad::math::{Rect, Vec2, vec2};
 use macroquad::miniquad::{BlendFactor, BlendState, BlendValue, Equation, PipelineParams, ShaderSource};
 use macroquad::texture::{DrawTextureParams, FilterMode, Image, Texture2D, draw_texture, draw_texture_ex};
 use macroquad::window::{screen_dpi_scale, screen_height, screen_width};
 use shared::table::TableFile;
 
+use crate::menu::MenuView;
 use crate::view::View;
 use atlas::{Batch, Sprite};
 use back_buffer::BackBuffer;
@@ -50,6 +52,7 @@ use dot_matrix::Fonts;
 pub(crate) use dot_matrix::grouped;
 use hud::Writer;
 use layout::{Layout, PixelSize};
+use menu::MenuPainter;
 use minis::Minis;
 use overlay::OverlayPainter;
 use panels::Panels;
@@ -65,6 +68,8 @@ pub(crate) struct Renderer {
     camera: Camera,
     /// Everything painted for one size of the window; made by the first frame.
     art: Option<Art>,
+    /// For menus; made by the first one.
+    menu: Option<MenuPainter>,
 }
 
 /// What a person asks of the picture, as far as it is painted once.
@@ -121,12 +126,20 @@ impl Renderer {
             back_buffer: BackBuffer::new(),
             camera: Camera::default(),
             art: None,
+            menu: None,
         }
     }
 
-    /// Draws one frame and shows it. If the view does not belong to the table, the last whole frame stays.
-    pub(crate) fn draw(&mut self, view: &View) {
-        let Self { table, blending, back_buffer, camera, art } = self;
+    /// The item of the menu that is at a point of the window, as it was drawn last.
+    pub(crate) fn menu_hit(&self, at: Vec2) -> Option<usize> {
+        let (art, menu) = (self.art.as_ref()?, self.menu.as_ref()?);
+        let window = vec2(screen_width(), screen_height()) * screen_dpi_scale();
+        menu.hit(at * art.layout.size.to_vec() / window.max(Vec2::ONE))
+    }
+
+    /// Draws one frame and shows it, with a menu over it. If the view does not belong to the table, the last whole frame stays.
+    pub(crate) fn draw(&mut self, view: &View, menu: Option<&MenuView>) {
+        let Self { table, blending, back_buffer, camera, art, menu: painter } = self;
 
         // 1. The art for the window's size.
         let dpi_scale = screen_dpi_scale();
@@ -137,7 +150,16 @@ impl Renderer {
 
         // 2. The frame, whole, into the back buffer.
         let bottom = camera.follow(view, art.layout.reach());
-        let painted = back_buffer.frame(size, || paint_frame(table, blending, art, view, bottom));
+        let painted = back_buffer.frame(size, || {
+            paint_frame(table, blending, art, view, bottom).map(|()| {
+                if let Some(menu) = menu {
+                    let current = painter.take().filter(|painter| painter.fits(size));
+                    let painter = painter.insert(current.unwrap_or_else(|| MenuPainter::new(size)));
+                    blending.layer();
+                    painter.draw(menu, art.panels.below_title(), view.clock);
+                }
+            })
+        });
 
         // 3. The newest whole frame on the screen, in one blit.
         blending.overwrite();

@@ -90,6 +90,12 @@ impl Panels {
         [self.scores, self.message].into_iter().chain(self.counters)
     }
 
+    /// The main panel without the game's name; empty where that has no room, either.
+    pub(super) fn below_title(&self) -> Rect {
+        let Rect { x, y, w, .. } = self.scores;
+        if self.title.h > 0.0 { Rect::new(x, y, w, self.message.bottom() - y) } else { Rect::default() }
+    }
+
     /// Every distance between dots that text may be set in; some smaller ones too, for text that is too long.
     pub(super) fn pitches(&self) -> impl Iterator<Item = u16> {
         let used = [self.small, self.medium, self.medium + 1, self.score, self.banner, self.popup];

@@ -150,7 +150,7 @@ fn disc_canvas(radius: f32) -> (Canvas, Vec2) {
 }
 
 /// A chrome sphere: it mirrors the lamps above, the dark room around, and at its lower rim the lit board.
-fn ball(radius: f32) -> Image {
+pub(super) fn ball(radius: f32) -> Image {
     let (mut canvas, center) = disc_canvas(radius);
     canvas.fill(&Shape::circle(center, radius), |p, _| {
         let flat = (p - center) / radius;
@@ -204,7 +204,7 @@ fn profile(coat: impl Fn(f32) -> Vec4) -> Image {
 }
 
 /// A few equal pixels.
-fn dot() -> Image {
+pub(super) fn dot() -> Image {
     const SIDE: u16 = 4;
     Image { width: SIDE, height: SIDE, bytes: vec![u8::MAX; usize::from(SIDE) * usize::from(SIDE) * 4] }
 }

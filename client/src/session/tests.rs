@@ -66,7 +66,7 @@ impl Client {
 }
 
 fn embedded() -> Embedded {
-    Embedded::start(Arc::new(Table::shipped("classic").unwrap().unwrap())).unwrap()
+    Embedded::start(Arc::new(Table::shipped("classic").unwrap().unwrap()), None).unwrap()
 }
 
 /// Whether what is to be seen is a game in which a ball is in play.
@@ -149,7 +149,7 @@ fn a_nudge_is_seen_at_once_and_predicted_rightly() {
     } else {
         source.replacen("gravity:", "cabinet: (), gravity:", 1)
     };
-    let embedded = Embedded::start(Arc::new(Table::parse("classic.ron", &source).unwrap())).unwrap();
+    let embedded = Embedded::start(Arc::new(Table::parse("classic.ron", &source).unwrap()), None).unwrap();
     let mut client = Client::join(&embedded, Role::Play);
     assert!(client.run(|session| session.place() == Some(0) && has_ball(session)), "no ball was served");
     client.run_for(0.3);

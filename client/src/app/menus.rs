@@ -1,0 +1,152 @@
+//! What menus have to do with the rest of the program: what they are told, and what is done when something was chosen.
+
+use shared::protocol::Role;
+
+use super::{App, State, send};
+use crate::arguments::Goal;
+use crate::menu::{Facts, MenuAct, MenuEvent, MenuInput, Page, Room};
+use crate::screens;
+use crate::streams::StreamChoice;
+
+/// Seconds for which a seat at one's own table is waited for.
+const SEAT_WAIT: f64 = 3.0;
+
+impl App {
+    /// What the pages speak of.
+    pub(super) fn facts(&self) -> Facts {
+        let room = match (&self.goal, &self.embedded) {
+            (Goal::Own(_), _) => Room::Own,
+            (Goal::Hosted(..), Some(embedded)) => Room::Hosted(embedded.address_for_others()),
+            (Goal::Hosted(..), None) => Room::Hosted(String::new()),
+            (Goal::Server { address, .. }, _) => Room::Guest(address.clone()),
+        };
+        let has_place = match &self.state {
+            State::Live(_, session) => session.place().is_some() || session.line().is_some(),
+            _ => false,
+        };
+        let (was_live, reason) = match &self.state {
+            State::Lost { was_live, reason } => (*was_live, reason.clone()),
+            _ => (false, String::new()),
+        };
+        let keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
+        Facts { table: self.table.name.clone(), room, has_place, keys, was_live, reason }
+    }
+
+    /// Gives the menu what happened; `false` if the person wants to quit.
+    pub(super) fn menu_input(&mut self, events: Vec<MenuEvent>) -> bool {
+        for event in events {
+            let input = match event {
+                MenuEvent::Input(input) => Some(input),
+                MenuEvent::Pointer { at, pressed } => {
+                    let item = self.renderer.menu_hit(at);
+                    item.map(if pressed { MenuInput::Press } else { MenuInput::Hover })
+                }
+            };
+            let act = input.and_then(|input| self.menu.input(input, &self.facts()));
+            if let Some(act) = act
+                && !self.act(act)
+            {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Does what was chosen; `false` if that is to quit.
+    fn act(&mut self, act: MenuAct) -> bool {
+        match act {
+            MenuAct::Play => {
+                self.menu.close();
+                self.wants_place = Some(self.now());
+                if let State::Live(_, session) = &mut self.state {
+                    session.play();
+                }
+            }
+            MenuAct::Host(mode) => self.go(Goal::Hosted(self.table.clone(), mode)),
+            MenuAct::Join { address, role } => {
+                self.go(Goal::Server { address, role, choice: StreamChoice::default() });
+            }
+            MenuAct::Resume => {
+                self.menu.close();
+                self.pause(false);
+            }
+            MenuAct::Restart => {
+                self.go(Goal::Own(self.table.clone()));
+                self.menu.close();
+                self.wants_place = Some(self.now());
+            }
+            MenuAct::LeaveSeat => {
+                if let State::Live(_, session) = &mut self.state {
+                    session.leave();
+                }
+                self.menu.close();
+            }
+            MenuAct::TryAgain => self.connect(),
+            MenuAct::LeaveToTitle => self.show_title(),
+            MenuAct::Quit => return false,
+        }
+        true
+    }
+
+    /// Opens the page over a game, which stands still meanwhile if it is the person's own.
+    pub(super) fn open_pause(&mut self) {
+        self.controls.release_all();
+        self.menu.show(Page::Pause);
+        self.pause(true);
+    }
+
+    fn pause(&mut self, stands_still: bool) {
+        if let State::Live(_, session) = &mut self.state {
+            session.pause(stands_still);
+        }
+    }
+
+    /// Back to the title, and to a table of one's own if the person is elsewhere.
+    fn show_title(&mut self) {
+        self.wants_place = None;
+        self.pause(false);
+        match (&self.goal, &mut self.state) {
+            (Goal::Own(_), State::Live(_, session)) => {
+                session.leave();
+                self.menu.show(Page::Title);
+            }
+            _ => self.go(Goal::Own(self.home.clone())),
+        }
+    }
+
+    /// Leaves what is there for something else.
+    fn go(&mut self, goal: Goal) {
+        if let State::Live(connection, session) = &mut self.state {
+            session.leave();
+            send(connection, session);
+            self.report.add(&session.counts());
+        }
+        if let Some(embedded) = self.embedded.take() {
+            embedded.retire();
+        }
+        self.state = State::Lost { was_live: false, reason: String::new() };
+        self.wants_place = None;
+        self.goal = goal;
+        self.connect();
+    }
+
+    /// A table of one's own at which nobody plays any more shows the title.
+    pub(super) fn settle(&mut self, now: f64) {
+        let (Goal::Own(_), State::Live(_, session)) = (&self.goal, &self.state) else { return };
+        if session.place().is_some() {
+            self.wants_place = None;
+        } else if !self.menu.is_open() && self.wants_place.is_none_or(|since| now - since > SEAT_WAIT) {
+            self.wants_place = None;
+            self.menu.show(Page::Title);
+        }
+    }
+
+    /// What the program comes to a room for, and the streams that it wants.
+    pub(super) fn role(&self) -> (Role, StreamChoice) {
+        match self.goal {
+            Goal::Server { role, choice, .. } => (role, choice),
+            // It is all on this machine: as smooth as can be.
+            Goal::Own(_) | Goal::Hosted(..) => (Role::Watch, StreamChoice { form: None, hz: Some(60) }),
+        }
+    }
+}
