@@ -89,6 +89,12 @@ impl Controls {
         Self { bindings, ..Self::default() }
     }
 
+    /// Other keys from now on.
+    pub(crate) fn bind(&mut self, bindings: Bindings) {
+        self.release_all();
+        self.bindings = bindings;
+    }
+
     /// A key went down. The keyboard's own repeats are no news.
     pub(crate) fn key_down(&mut self, key: KeyCode) {
         match self.bindings.control_of(key).map(kind_of) {

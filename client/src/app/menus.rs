@@ -1,10 +1,11 @@
 //! What menus have to do with the rest of the program: what they are told, and what is done when something was chosen.
 
+use macroquad::window::set_fullscreen;
 use shared::protocol::Role;
 
 use super::{App, State, send};
 use crate::arguments::Goal;
-use crate::menu::{Facts, MenuAct, MenuEvent, MenuInput, Page, Room};
+use crate::menu::{Facts, MenuAct, MenuEvent, MenuInput, Page, Room, Setting};
 use crate::screens;
 use crate::streams::StreamChoice;
 
@@ -29,17 +30,23 @@ impl App {
             _ => (false, String::new()),
         };
         let keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
-        Facts { table: self.table.name.clone(), room, has_place, keys, was_live, reason }
+        let settings = self.store.settings.clone();
+        Facts { table: self.table.name.clone(), room, has_place, keys, settings, was_live, reason }
     }
 
     /// Gives the menu what happened; `false` if the person wants to quit.
     pub(super) fn menu_input(&mut self, events: Vec<MenuEvent>) -> bool {
+        let page = self.menu.page();
         for event in events {
             let input = match event {
                 MenuEvent::Input(input) => Some(input),
                 MenuEvent::Pointer { at, pressed } => {
                     let item = self.renderer.menu_hit(at);
-                    item.map(if pressed { MenuInput::Press } else { MenuInput::Hover })
+                    item.map(
+                        |(item, share)| {
+                            if pressed { MenuInput::Press(item, share) } else { MenuInput::Hover(item) }
+                        },
+                    )
                 }
             };
             let act = input.and_then(|input| self.menu.input(input, &self.facts()));
@@ -48,6 +55,9 @@ impl App {
             {
                 return false;
             }
+        }
+        if matches!(page, Some(Page::Settings | Page::Keys)) && self.menu.page() != page {
+            self.store.save();
         }
         true
     }
@@ -83,9 +93,34 @@ impl App {
             }
             MenuAct::TryAgain => self.connect(),
             MenuAct::LeaveToTitle => self.show_title(),
+            MenuAct::Set(setting, value) => self.set(setting, value),
+            MenuAct::Name(name) => self.store.settings.name = name,
+            MenuAct::Bind(bindings) => {
+                self.controls.bind(bindings.clone());
+                self.store.settings.keys = bindings;
+            }
             MenuAct::Quit => return false,
         }
         true
+    }
+
+    /// A choice acts at once, and is remembered.
+    fn set(&mut self, setting: Setting, value: u8) {
+        let settings = &mut self.store.settings;
+        match setting {
+            Setting::Volume => {
+                settings.volume = value;
+                // What was said at the start no longer holds.
+                self.options.volume = None;
+            }
+            Setting::TextSize => settings.text_scale = f32::from(value) / 100.0,
+            Setting::ReducedFlashing => settings.reduced_flashing = value > 0,
+            Setting::MarkedLights => settings.marked_lights = value > 0,
+            Setting::FullScreen => {
+                settings.full_screen = value > 0;
+                set_fullscreen(settings.full_screen);
+            }
+        }
     }
 
     /// Opens the page over a game, which stands still meanwhile if it is the person's own.

@@ -3,6 +3,7 @@
 use shared::protocol::Role;
 
 use super::{MenuAct, Page};
+use crate::settings;
 
 /// An item of a page.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,10 +31,59 @@ pub(crate) enum Control {
     Back,
     /// Has something done.
     Act(MenuAct),
-    /// The address: its label is what was typed.
-    Address,
+    /// What is typed: its label is what there is of it.
+    Field(Field),
+    /// A number that can be more or less.
+    Level {
+        /// What it is.
+        setting: Setting,
+        /// How much.
+        value: u8,
+        /// The least, the most, and a step.
+        range: (u8, u8, u8),
+    },
+    /// On or off.
+    Switch {
+        /// What it is.
+        setting: Setting,
+        /// Whether it is on.
+        is_on: bool,
+    },
+    /// The keys of something on the table; `waits`: for one that is pressed now.
+    Keys {
+        /// What they work.
+        control: settings::Control,
+        /// Their labels.
+        keys: String,
+        /// The next key that is pressed is one of them, or no more.
+        waits: bool,
+    },
     /// Joins the room at the address.
     Join(Role),
+}
+
+/// What is typed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Field {
+    /// Where a room is.
+    Address,
+    /// What others call the player.
+    Name,
+}
+
+/// What can be set by a number: percent, or 0 and 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Setting {
+    /// Of the sound.
+    Volume,
+    /// Of the text.
+    TextSize,
+    /// The window fills the screen.
+    FullScreen,
+    /// Nothing flashes.
+    ReducedFlashing,
+    /// Lights have marks.
+    MarkedLights,
 }
 
 impl Item {
@@ -46,6 +96,11 @@ impl Item {
     pub(super) fn about(mut self, note: &str) -> Self {
         note.clone_into(&mut self.note);
         self
+    }
+
+    /// What is typed into it.
+    pub(super) fn field(&self) -> Option<Field> {
+        if let Control::Field(field) = self.control { Some(field) } else { None }
     }
 
     /// Whether something can be done with it.

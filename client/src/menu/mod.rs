@@ -10,11 +10,15 @@ mod item;
 mod pages;
 
 use macroquad::input::KeyCode;
-use shared::protocol::{Mode, Role};
+use shared::protocol::{MOST_NAME, Mode, Role, check_name};
 
 pub(crate) use input::{MenuEvent, MenuSorter};
-pub(crate) use item::{Control, Item};
+pub(crate) use item::{Control, Field, Item, Setting};
 pub(crate) use pages::{Facts, Page, Room};
+
+use crate::settings::bindings::MOST_KEYS;
+use crate::settings::keys::Key;
+use crate::settings::{self, Bindings};
 
 /// Characters that an address may have: a host name has up to 253, and a port.
 const MOST_ADDRESS: usize = 260;
@@ -30,8 +34,8 @@ pub(crate) enum MenuInput {
     Paste(String),
     /// The pointer moved onto an item.
     Hover(usize),
-    /// It was pressed there.
-    Press(usize),
+    /// It was pressed there, at that share of the item's width.
+    Press(usize, f32),
     /// A wheel was turned: so many items down.
     Wheel(i8),
 }
@@ -60,6 +64,12 @@ pub(crate) enum MenuAct {
     TryAgain,
     /// Back to the title.
     LeaveToTitle,
+    /// A choice that is remembered.
+    Set(Setting, u8),
+    /// What others are to call the player.
+    Name(String),
+    /// Which keys work what.
+    Bind(Bindings),
     /// End the program.
     Quit,
 }
@@ -91,10 +101,20 @@ struct Open {
 pub(crate) struct Menu {
     /// Each page was opened from the one before it. Empty: the game has the screen.
     stack: Vec<Open>,
-    /// The address that was typed.
-    address: String,
+    /// What was typed.
+    drafts: Drafts,
     /// What is wrong with it.
     problem: String,
+}
+
+/// What was typed, and not yet taken.
+#[derive(Debug, Default)]
+pub(crate) struct Drafts {
+    address: String,
+    /// `None`: as it is.
+    name: Option<String>,
+    /// What the next key is for.
+    keys_of: Option<settings::Control>,
 }
 
 impl Menu {
@@ -122,7 +142,7 @@ impl Menu {
     /// What is to be seen; `None` if the game has the screen.
     pub(crate) fn view(&self, facts: &Facts) -> Option<MenuView> {
         let open = self.stack.last()?;
-        let items = open.page.items(facts, &self.address);
+        let items = open.page.items(facts, &self.drafts);
         let focus = focused(&items, open.focus);
         Some(MenuView { page: open.page, title: open.page.title(facts), items, focus, problem: self.problem.clone() })
     }
@@ -130,35 +150,54 @@ impl Menu {
     /// Takes an input in; returns what is to be done.
     pub(crate) fn input(&mut self, input: MenuInput, facts: &Facts) -> Option<MenuAct> {
         let open = *self.stack.last()?;
-        let items = open.page.items(facts, &self.address);
+        let items = open.page.items(facts, &self.drafts);
         let focus = focused(&items, open.focus);
         let item = items.get(focus)?;
+        if let Some(control) = self.drafts.keys_of {
+            match input {
+                MenuInput::Key(KeyCode::Escape) | MenuInput::Press(..) => self.drafts.keys_of = None,
+                MenuInput::Key(key) => return self.bind(control, key, facts),
+                _ => {}
+            }
+            return None;
+        }
         match input {
             MenuInput::Hover(at) => self.focus(focused_at(&items, at)?),
-            MenuInput::Press(at) => {
+            MenuInput::Press(at, share) => {
                 let at = focused_at(&items, at)?;
                 self.focus(at);
-                return self.confirm(items.get(at)?);
+                return match items.get(at)?.control {
+                    Control::Level { setting, range: (least, most, step), .. } => {
+                        // A cast saturates.
+                        let steps = (share.clamp(0.0, 1.0) * f32::from((most - least) / step)).round() as u8;
+                        Some(MenuAct::Set(setting, least + steps * step))
+                    }
+                    _ => self.confirm(items.get(at)?, facts),
+                };
             }
+            MenuInput::Key(KeyCode::Left) if is_choice(item) => return changed(item, false),
+            MenuInput::Key(KeyCode::Right) if is_choice(item) => return changed(item, true),
             MenuInput::Wheel(down) => self.focus(step(&items, focus, down, false)),
             MenuInput::Key(KeyCode::Up | KeyCode::Left) => self.focus(step(&items, focus, -1, true)),
             MenuInput::Key(KeyCode::Down | KeyCode::Right | KeyCode::Tab) => self.focus(step(&items, focus, 1, true)),
-            MenuInput::Key(KeyCode::Enter | KeyCode::KpEnter) => return self.confirm(item),
-            MenuInput::Key(KeyCode::Space) if item.control != Control::Address => return self.confirm(item),
+            MenuInput::Key(KeyCode::Enter | KeyCode::KpEnter) => return self.confirm(item, facts),
+            MenuInput::Key(KeyCode::Space) if item.field().is_none() => return self.confirm(item, facts),
             MenuInput::Key(KeyCode::Escape) => return self.back(&items, focus),
-            MenuInput::Key(KeyCode::Backspace) if item.control == Control::Address => {
-                self.address.pop();
-                self.problem.clear();
+            MenuInput::Key(KeyCode::Backspace) => {
+                return self.edit(item.field()?, facts, |text| {
+                    text.pop();
+                });
             }
-            MenuInput::Char(letter) if item.control == Control::Address => self.type_in(&letter.to_string()),
-            MenuInput::Paste(text) if item.control == Control::Address => self.type_in(text.trim()),
-            MenuInput::Key(_) | MenuInput::Char(_) | MenuInput::Paste(_) => {}
+            MenuInput::Char(letter) => return self.edit(item.field()?, facts, |text| text.push(letter)),
+            MenuInput::Paste(more) => return self.edit(item.field()?, facts, |text| text.push_str(more.trim())),
+            MenuInput::Key(_) => {}
         }
         None
     }
 
     fn open(&mut self, page: Page) {
         self.problem.clear();
+        (self.drafts.name, self.drafts.keys_of) = (None, None);
         self.stack.push(Open { page, focus: 0 });
     }
 
@@ -168,30 +207,96 @@ impl Menu {
         }
     }
 
-    /// What an address cannot hold is not taken in.
-    fn type_in(&mut self, text: &str) {
-        let room = MOST_ADDRESS.saturating_sub(self.address.len());
-        self.address.extend(text.chars().filter(char::is_ascii_graphic).take(room));
+    /// Changes what was typed; what cannot be is not taken in.
+    fn edit(&mut self, field: Field, facts: &Facts, change: impl FnOnce(&mut String)) -> Option<MenuAct> {
         self.problem.clear();
+        match field {
+            Field::Address => {
+                change(&mut self.drafts.address);
+                self.drafts.address.retain(|letter| letter.is_ascii_graphic());
+                // All of it is ASCII.
+                self.drafts.address.truncate(MOST_ADDRESS);
+                None
+            }
+            Field::Name => {
+                let name = self.drafts.name.get_or_insert_with(|| facts.settings.name.clone());
+                change(name);
+                *name = name.chars().filter(|letter| !letter.is_control()).take(MOST_NAME).collect();
+                let whole = name.trim();
+                match check_name(whole) {
+                    Err(problem) if !whole.is_empty() => {
+                        self.problem = problem;
+                        None
+                    }
+                    _ => Some(MenuAct::Name(whole.to_owned())),
+                }
+            }
+        }
     }
 
-    fn confirm(&mut self, item: &Item) -> Option<MenuAct> {
+    /// A key for something on the table: one that it has is taken away, another one is given to it.
+    fn bind(&mut self, control: settings::Control, key: KeyCode, facts: &Facts) -> Option<MenuAct> {
+        let Some(key) = Key::of(key) else {
+            self.problem = "The game needs that key itself; another one would be right".to_owned();
+            return None;
+        };
+        let mut bindings = facts.settings.keys.clone();
+        let mut keys = bindings.keys(control).to_vec();
+        if keys.contains(&key) {
+            keys.retain(|known| *known != key);
+        } else {
+            keys.insert(0, key);
+            keys.truncate(MOST_KEYS);
+        }
+        match bindings.rebind(control, keys) {
+            Ok(()) => {
+                self.problem.clear();
+                self.drafts.keys_of = None;
+                Some(MenuAct::Bind(bindings))
+            }
+            Err(problem) => {
+                self.problem = problem.to_string();
+                None
+            }
+        }
+    }
+
+    fn confirm(&mut self, item: &Item, facts: &Facts) -> Option<MenuAct> {
         match &item.control {
             Control::Open(page) => self.open(*page),
-            Control::Back => {
-                self.stack.pop();
-            }
+            Control::Back => self.close_page(),
             Control::Act(act) => return Some(act.clone()),
-            Control::Address | Control::Join(_) => {
+            Control::Field(Field::Address) | Control::Join(_) => {
                 let Some(Page::Join(role)) = self.page() else { return None };
-                match pages::address(&self.address) {
+                match pages::address(&self.drafts.address) {
                     Ok(address) => return Some(MenuAct::Join { address, role }),
                     Err(problem) => self.problem = problem,
                 }
             }
+            Control::Level { value, range: (_, most, _), setting } if value == most => {
+                let Control::Level { range: (least, ..), .. } = &item.control else { return None };
+                return Some(MenuAct::Set(*setting, *least));
+            }
+            Control::Level { .. } | Control::Switch { .. } => return changed(item, true),
+            Control::Keys { control, .. } => {
+                self.problem.clear();
+                self.drafts.keys_of = Some(*control);
+            }
+            Control::Field(Field::Name) => self.focus(step(&self.items(facts), self.stack.last()?.focus, 1, true)),
             Control::Heading | Control::Words | Control::Pair(_) => {}
         }
         None
+    }
+
+    /// The page before, or none.
+    fn close_page(&mut self) {
+        self.stack.pop();
+        self.problem.clear();
+        (self.drafts.name, self.drafts.keys_of) = (None, None);
+    }
+
+    fn items(&self, facts: &Facts) -> Vec<Item> {
+        self.page().map_or_else(Vec::new, |page| page.items(facts, &self.drafts))
     }
 
     /// A page back. From the title it takes two: nobody should quit by accident.
@@ -207,12 +312,28 @@ impl Menu {
             }
             Page::Pause | Page::Opened => Some(MenuAct::Resume),
             Page::Connecting | Page::Lost => Some(MenuAct::LeaveToTitle),
-            Page::Against | Page::Join(_) | Page::HowTo => {
-                self.stack.pop();
-                self.problem.clear();
+            Page::Against | Page::Join(_) | Page::HowTo | Page::Settings | Page::Keys => {
+                self.close_page();
                 None
             }
         }
+    }
+}
+
+/// Whether left and right choose a value of it.
+fn is_choice(item: &Item) -> bool {
+    matches!(item.control, Control::Level { .. } | Control::Switch { .. })
+}
+
+/// More or less of it, on or off.
+fn changed(item: &Item, more: bool) -> Option<MenuAct> {
+    match item.control {
+        Control::Level { setting, value, range: (least, most, step) } => {
+            let value = if more { value.saturating_add(step) } else { value.saturating_sub(step) };
+            Some(MenuAct::Set(setting, value.clamp(least, most)))
+        }
+        Control::Switch { setting, is_on } => Some(MenuAct::Set(setting, u8::from(!is_on))),
+        _ => None,
     }
 }
 

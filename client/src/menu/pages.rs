@@ -2,9 +2,10 @@
 
 use shared::protocol::{Mode, Role};
 
-use super::{Control, Item, MenuAct};
+use super::{Control, Drafts, Field, Item, MenuAct, Setting};
 use crate::arguments::check_address;
 use crate::embedded::USUAL_PORT;
+use crate::settings::{self, LARGEST_TEXT, Settings};
 
 /// A page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -15,6 +16,10 @@ pub(crate) enum Page {
     Against,
     /// Asks for the address of a room.
     Join(Role),
+    /// What can be chosen and is remembered.
+    Settings,
+    /// Which keys work what.
+    Keys,
     /// How it is played.
     HowTo,
     /// Over a game.
@@ -40,7 +45,7 @@ pub(crate) enum Room {
 }
 
 /// What is the case, as far as pages speak of it.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct Facts {
     /// Name of the table.
     pub(crate) table: String,
@@ -50,6 +55,8 @@ pub(crate) struct Facts {
     pub(crate) has_place: bool,
     /// What works what on the table.
     pub(crate) keys: Vec<(String, String)>,
+    /// What was chosen.
+    pub(crate) settings: Settings,
     /// The connection has stood.
     pub(crate) was_live: bool,
     /// Why it does not, or empty.
@@ -64,6 +71,8 @@ impl Page {
             Self::Against => "AGAINST SPECTATORS",
             Self::Join(Role::Play) => "JOIN A ROOM",
             Self::Join(Role::Watch) => "WATCH A ROOM",
+            Self::Settings => "SETTINGS",
+            Self::Keys => "KEYS",
             Self::HowTo => "HOW TO PLAY",
             Self::Pause if facts.room == Room::Own => "PAUSE",
             Self::Pause => "MENU",
@@ -75,12 +84,14 @@ impl Page {
         .to_owned()
     }
 
-    /// What it offers; `address` is what was typed as one.
-    pub(super) fn items(self, facts: &Facts, address: &str) -> Vec<Item> {
+    /// What it offers.
+    pub(super) fn items(self, facts: &Facts, drafts: &Drafts) -> Vec<Item> {
         match self {
             Self::Title => title(facts),
             Self::Against => against(),
-            Self::Join(role) => join(role, address),
+            Self::Join(role) => join(role, &drafts.address),
+            Self::Settings => settings_page(facts, drafts),
+            Self::Keys => keys(facts, drafts),
             Self::HowTo => how_to(facts),
             Self::Pause => pause(facts),
             Self::Opened => opened(facts),
@@ -106,6 +117,7 @@ fn title(facts: &Facts) -> Vec<Item> {
         act("PLAY", MenuAct::Play).about(&format!("A game on {}: press ENTER", facts.table)),
         Item::new("AGAINST SPECTATORS", Control::Open(Page::Against)).about("Open a room for others, or join one"),
         Item::new("WATCH", Control::Open(Page::Join(Role::Watch))).about("See a game that is played elsewhere"),
+        Item::new("SETTINGS", Control::Open(Page::Settings)).about("Keys, sound, screen, your name"),
         Item::new("HOW TO PLAY", Control::Open(Page::HowTo)).about("The keys, and what to shoot for"),
         act("QUIT", MenuAct::Quit).about("ENTER or ESC: leave Starball"),
     ]
@@ -139,10 +151,50 @@ fn join(role: Role, address: &str) -> Vec<Item> {
     };
     vec![
         Item::new("ADDRESS OF THE ROOM", Control::Heading),
-        Item::new(address, Control::Address).about("Type it as the host's screen shows it, such as 192.168.1.20:7777"),
+        Item::new(address, Control::Field(Field::Address))
+            .about("Type it as the host's screen shows it, such as 192.168.1.20:7777"),
         Item::new(word, Control::Join(role)).about(about),
         Item::new("BACK", Control::Back),
     ]
+}
+
+fn settings_page(facts: &Facts, drafts: &Drafts) -> Vec<Item> {
+    let Settings { name, volume, full_screen, reduced_flashing, marked_lights, text_scale, .. } = &facts.settings;
+    let level = |label: &str, setting, value, range| Item::new(label, Control::Level { setting, value, range });
+    let switch = |label: &str, setting, is_on: &bool| Item::new(label, Control::Switch { setting, is_on: *is_on });
+    // Casts saturate.
+    let (text, most_text) = ((text_scale * 100.0).round() as u8, (LARGEST_TEXT * 100.0).round() as u8);
+    vec![
+        Item::new("YOUR NAME", Control::Heading),
+        Item::new(drafts.name.as_ref().unwrap_or(name), Control::Field(Field::Name))
+            .about("What others call you in the next room. Empty: your user name"),
+        level("VOLUME", Setting::Volume, *volume, (0, 100, 10)),
+        switch("FULL SCREEN", Setting::FullScreen, full_screen).about("F11 does the same"),
+        level("TEXT SIZE", Setting::TextSize, text, (100, most_text, 20)),
+        switch("REDUCED FLASHING", Setting::ReducedFlashing, reduced_flashing).about("Nothing flashes or shakes"),
+        switch("MARKED LIGHTS", Setting::MarkedLights, marked_lights)
+            .about("For eyes that do not tell all colours apart: lights differ by a mark as well"),
+        Item::new("KEYS", Control::Open(Page::Keys)).about("Which keys work what"),
+        Item::new("BACK", Control::Back),
+    ]
+}
+
+fn keys(facts: &Facts, drafts: &Drafts) -> Vec<Item> {
+    let bindings = &facts.settings.keys;
+    let row = |control: settings::Control| {
+        let waits = drafts.keys_of == Some(control);
+        let keys = bindings.labels(control, settings::bindings::MOST_KEYS);
+        let about = if waits {
+            "Press a key: a new one is added, one that it has is taken away. ESC: neither"
+        } else {
+            "ENTER, and then a key to add or to take away"
+        };
+        Item::new(control.label(), Control::Keys { control, keys, waits }).about(about)
+    };
+    let mut items: Vec<Item> = settings::Control::ALL.into_iter().map(row).collect();
+    items.push(act("THE USUAL KEYS", MenuAct::Bind(settings::Bindings::default())).about("As they were at first"));
+    items.push(Item::new("BACK", Control::Back));
+    items
 }
 
 fn how_to(facts: &Facts) -> Vec<Item> {
@@ -170,6 +222,7 @@ fn pause(facts: &Facts) -> Vec<Item> {
         items.push(act("GIVE UP THE SEAT", MenuAct::LeaveSeat).about("Others go on, and you watch"));
     }
     items.extend([
+        Item::new("SETTINGS", Control::Open(Page::Settings)),
         Item::new("HOW TO PLAY", Control::Open(Page::HowTo)),
         act("LEAVE TO TITLE", MenuAct::LeaveToTitle),
         act("QUIT", MenuAct::Quit),

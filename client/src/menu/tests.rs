@@ -77,8 +77,8 @@ fn the_pointer_focuses_and_presses() {
     let mut menu = title();
     assert_eq!(menu.input(MenuInput::Hover(2), &facts()), None);
     assert_eq!(label(&menu), "WATCH");
-    assert_eq!(menu.input(MenuInput::Press(4), &facts()), Some(MenuAct::Quit));
-    assert_eq!(menu.input(MenuInput::Press(99), &facts()), None);
+    assert_eq!(menu.input(MenuInput::Press(5, 0.0), &facts()), Some(MenuAct::Quit));
+    assert_eq!(menu.input(MenuInput::Press(99, 0.0), &facts()), None);
 }
 
 #[test]
@@ -98,7 +98,7 @@ fn an_address_is_typed_checked_and_joined() {
     menu.input(MenuInput::Paste(" :1x \n".to_owned()), &facts());
     press(&mut menu, &[KeyCode::Backspace]);
     assert_eq!(press(&mut menu, &[KeyCode::Down, KeyCode::Enter]), join("localhost:1"));
-    menu.input(MenuInput::Press(1), &facts());
+    menu.input(MenuInput::Press(1, 0.5), &facts());
     menu.input(MenuInput::Paste("9".repeat(1000)), &facts());
     assert!(label(&menu).len() <= MOST_ADDRESS);
 }
@@ -114,6 +114,8 @@ fn every_page_has_something_to_choose_and_a_way_back() {
                 Page::Against,
                 Page::Join(Role::Play),
                 Page::Join(Role::Watch),
+                Page::Settings,
+                Page::Keys,
                 Page::HowTo,
                 Page::Pause,
                 Page::Opened,
@@ -133,4 +135,67 @@ fn every_page_has_something_to_choose_and_a_way_back() {
             }
         }
     }
+}
+
+fn settings_of(facts: &Facts, page: Page) -> (Menu, MenuView) {
+    let mut menu = Menu::default();
+    menu.show(page);
+    let view = menu.view(facts).unwrap();
+    (menu, view)
+}
+
+#[test]
+fn settings_are_changed_by_arrows_enter_and_pointer_within_their_ranges() {
+    let mut facts = facts();
+    facts.settings.volume = 95;
+    let (mut menu, view) = settings_of(&facts, Page::Settings);
+    let volume = view.items.iter().position(|item| item.label == "VOLUME").unwrap();
+    menu.input(MenuInput::Hover(volume), &facts);
+    let key = |menu: &mut Menu, key| menu.input(MenuInput::Key(key), &facts);
+    let set = |value| Some(MenuAct::Set(Setting::Volume, value));
+    assert_eq!((key(&mut menu, KeyCode::Right), key(&mut menu, KeyCode::Left)), (set(100), set(85)));
+    assert_eq!(menu.input(MenuInput::Press(volume, 0.52), &facts), set(50));
+    assert_eq!(menu.input(MenuInput::Press(volume, f32::NAN), &facts), set(0));
+    let screen = view.items.iter().position(|item| item.label == "FULL SCREEN").unwrap();
+    assert_eq!(menu.input(MenuInput::Press(screen, 0.0), &facts), Some(MenuAct::Set(Setting::FullScreen, 1)));
+}
+
+#[test]
+fn a_name_is_taken_as_it_is_typed_when_others_can_be_shown_it() {
+    let facts = facts();
+    let (mut menu, _) = settings_of(&facts, Page::Settings);
+    let named = |name: &str| Some(MenuAct::Name(name.to_owned()));
+    assert_eq!(menu.input(MenuInput::Char('A'), &facts), named("A"));
+    assert_eq!(menu.input(MenuInput::Char(' '), &facts), named("A"));
+    assert_eq!(menu.input(MenuInput::Char('B'), &facts), named("A B"));
+    assert_eq!(menu.input(MenuInput::Paste("x".repeat(99)), &facts), named(&format!("A B{}", "x".repeat(21))));
+    assert_eq!(menu.input(MenuInput::Char('\u{202e}'), &facts), named(&format!("A B{}", "x".repeat(21))));
+    menu.input(MenuInput::Key(KeyCode::Backspace), &facts);
+    assert_eq!(menu.input(MenuInput::Char('\u{202e}'), &facts), None);
+    assert!(!menu.view(&facts).unwrap().problem.is_empty());
+}
+
+#[test]
+fn a_key_is_added_taken_away_or_refused() {
+    let mut facts = facts();
+    let (mut menu, _) = settings_of(&facts, Page::Keys);
+    let keys = |facts: &Facts| facts.settings.keys.labels(settings::Control::LeftFlipper, MOST_KEYS);
+    let press = |menu: &mut Menu, facts: &mut Facts, key| {
+        if let Some(MenuAct::Bind(bindings)) = menu.input(MenuInput::Key(key), facts) {
+            facts.settings.keys = bindings;
+        }
+    };
+    press(&mut menu, &mut facts, KeyCode::Enter);
+    press(&mut menu, &mut facts, KeyCode::X);
+    assert_eq!(keys(&facts), "X, L SHIFT, Z, LEFT ARROW");
+    press(&mut menu, &mut facts, KeyCode::Enter);
+    press(&mut menu, &mut facts, KeyCode::RightShift);
+    assert!(menu.view(&facts).unwrap().problem.contains("RIGHT FLIPPER"));
+    press(&mut menu, &mut facts, KeyCode::Tab);
+    assert!(menu.view(&facts).unwrap().problem.contains("needs that key"));
+    press(&mut menu, &mut facts, KeyCode::LeftShift);
+    assert_eq!(keys(&facts), "X, Z, LEFT ARROW");
+    press(&mut menu, &mut facts, KeyCode::Enter);
+    press(&mut menu, &mut facts, KeyCode::Escape);
+    assert_eq!((menu.page(), keys(&facts).as_str()), (Some(Page::Keys), "X, Z, LEFT ARROW"), "only the waiting ends");
 }

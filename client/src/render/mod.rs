@@ -130,8 +130,8 @@ impl Renderer {
         }
     }
 
-    /// The item of the menu that is at a point of the window, as it was drawn last.
-    pub(crate) fn menu_hit(&self, at: Vec2) -> Option<usize> {
+    /// The item of the menu that is at a point of the window, as it was drawn last, and the share of its width at which.
+    pub(crate) fn menu_hit(&self, at: Vec2) -> Option<(usize, f32)> {
         let (art, menu) = (self.art.as_ref()?, self.menu.as_ref()?);
         let window = vec2(screen_width(), screen_height()) * screen_dpi_scale();
         menu.hit(at * art.layout.size.to_vec() / window.max(Vec2::ONE))
@@ -153,8 +153,8 @@ impl Renderer {
         let painted = back_buffer.frame(size, || {
             paint_frame(table, blending, art, view, bottom).map(|()| {
                 if let Some(menu) = menu {
-                    let current = painter.take().filter(|painter| painter.fits(size));
-                    let painter = painter.insert(current.unwrap_or_else(|| MenuPainter::new(size)));
+                    let current = painter.take().filter(|painter| painter.fits(size, comfort.text_scale));
+                    let painter = painter.insert(current.unwrap_or_else(|| MenuPainter::new(size, comfort.text_scale)));
                     blending.layer();
                     painter.draw(menu, art.panels.below_title(), view.clock);
                 }

@@ -10,6 +10,8 @@ const CURSOR: f32 = 2.5;
 /// Glyphs of a page at the least, and of a line of words at the most: longer ones are hard to read.
 const LEAST_GLYPHS: f32 = 26.0;
 const MOST_GLYPHS: f32 = 46.0;
+/// Glyphs of the bar of a level.
+const LEVEL: f32 = 10.0;
 /// Dots between the edge of the plate and what is on it.
 const MARGIN: f32 = 8.0;
 /// The same in a panel, which is narrow.
@@ -51,20 +53,16 @@ pub(super) struct MenuLayout {
     pub(super) more: [bool; 2],
 }
 
-/// The largest distance between dots in a window of a size: text that can be read from an arm's length.
-pub(super) fn largest(size: Vec2) -> u16 {
-    (size.y / 210.0).min(size.x / 190.0).round().clamp(1.0, 10.0) as u16
-}
-
-/// All distances between dots that may be needed.
-pub(super) fn pitches(size: Vec2) -> impl Iterator<Item = u16> {
-    1..=2 * largest(size)
+/// The largest distance between dots in a window of a size: text that can be read from an arm's length, and so many times
+/// larger.
+pub(super) fn largest(size: Vec2, scale: f32) -> u16 {
+    ((size.y / 210.0).min(size.x / 190.0) * scale).round().clamp(1.0, 8.0) as u16
 }
 
 impl MenuLayout {
     /// In a window of a size. `panel`: a place beside the table where a short page may stand, its own heading above it.
-    pub(super) fn new(size: Vec2, panel: Rect, view: &MenuView) -> Self {
-        let largest = largest(size);
+    /// `largest`: see there.
+    pub(super) fn new(size: Vec2, largest: u16, panel: Rect, view: &MenuView) -> Self {
         let least = largest.min(2);
         if view.page == Page::Title && panel.w >= size.x * 0.2 {
             let fits = (least..=largest).rev().find_map(|pitch| Self::attempt(panel, pitch, view, Place::Panel));
@@ -152,9 +150,19 @@ impl MenuLayout {
         Some(Self { plate, covers: place != Place::Panel, title, pitch, small, rows, note, more })
     }
 
-    /// The item at a point.
-    pub(super) fn hit(&self, at: Vec2) -> Option<usize> {
-        self.rows.iter().find(|row| row.area.contains(at)).map(|row| row.item)
+    /// The item at a point, and the share of the width of its value at which.
+    pub(super) fn hit(&self, at: Vec2) -> Option<(usize, f32)> {
+        let row = self.rows.iter().find(|row| row.area.contains(at))?;
+        let bar = self.bar(row);
+        Some((row.item, (at.x - bar.x) / bar.w))
+    }
+
+    /// Where the value of a level stands.
+    pub(super) fn bar(&self, row: &Row) -> Rect {
+        let Rect { y, w, h, .. } = row.area;
+        let width = LEVEL * f32::from(ADVANCE * self.pitch);
+        let width = width.min(w / 2.0);
+        Rect::new(row.area.right() - width, y, width, h)
     }
 }
 
@@ -169,9 +177,14 @@ enum Place {
     Cut,
 }
 
+/// The largest distance between dots of a heading, where that of the rest is at the most so much.
+pub(super) fn largest_title(largest: u16) -> u16 {
+    (2 * largest).min(12)
+}
+
 /// A heading is twice as large as the rest, if there is room.
 fn title_pitch(title: &str, pitch: u16, width: f32) -> u16 {
-    (pitch + 1..=2 * pitch).rev().find(|&larger| measure(title, larger).x <= width).unwrap_or(pitch)
+    (pitch + 1..=largest_title(pitch)).rev().find(|&larger| measure(title, larger).x <= width).unwrap_or(pitch)
 }
 
 fn is_words(item: &Item) -> bool {
@@ -185,7 +198,10 @@ fn wanted_glyphs(item: &Item) -> f32 {
         Control::Words | Control::Heading => label,
         Control::Pair(value) => label + 2.0 + value.chars().count() as f32,
         // A long address is cut.
-        Control::Address => LEAST_GLYPHS,
+        Control::Field(_) => LEAST_GLYPHS,
+        Control::Level { .. } => CURSOR + label + 2.0 + LEVEL,
+        Control::Switch { .. } => CURSOR + label + 2.0 + 3.0,
+        Control::Keys { keys, .. } => CURSOR + label + 2.0 + (keys.chars().count() as f32).max(11.0),
         Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => CURSOR + label,
     }
 }
@@ -196,7 +212,8 @@ fn height(item: &Item, lines: usize) -> f32 {
         Control::Words => LINE * lines as f32 + 3.0,
         Control::Heading => ABOVE_HEADING + LINE,
         Control::Pair(_) => LINE,
-        Control::Address => ITEM + 4.0,
+        Control::Field(_) => ITEM + 4.0,
+        Control::Level { .. } | Control::Switch { .. } | Control::Keys { .. } => ITEM,
         Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => ITEM,
     }
 }
@@ -269,6 +286,8 @@ mod tests {
             Page::Against,
             Page::Join(shared::protocol::Role::Play),
             Page::HowTo,
+            Page::Settings,
+            Page::Keys,
             Page::Pause,
             Page::Lost,
         ];
@@ -281,10 +300,12 @@ mod tests {
 
     #[test]
     fn items_are_on_the_plate_in_the_window_apart_and_hit_where_they_are() {
-        for (width, height) in SIZES {
+        let sizes = SIZES.into_iter().flat_map(|size| [(size, 1.0), (size, 1.6)]);
+        for ((width, height), scale) in sizes {
+            let size = vec2(width, height);
             let panel = Rect::new(10.0, height * 0.4, width * 0.33, height * 0.55);
             for view in views() {
-                let layout = MenuLayout::new(vec2(width, height), panel, &view);
+                let layout = MenuLayout::new(size, largest(size, scale), panel, &view);
                 let plate = layout.plate;
                 assert!(plate.x >= 0.0 && plate.right() <= width && plate.y >= 0.0 && plate.bottom() <= height);
                 assert!(layout.rows.iter().any(|row| row.item == view.focus), "{width} x {height}: no focus");
@@ -293,7 +314,7 @@ mod tests {
                 }
                 for row in &layout.rows {
                     let area = row.area;
-                    assert_eq!(layout.hit(area.center()), Some(row.item));
+                    assert_eq!(layout.hit(area.center()).map(|(item, _)| item), Some(row.item));
                     let inside = area.x >= plate.x && area.right() <= plate.right() + 1.0 && area.y >= plate.y;
                     let small = width < 600.0 || height < 400.0;
                     assert!(small || inside && area.bottom() <= plate.bottom() + 1.0, "{width} x {height}: {area:?}");

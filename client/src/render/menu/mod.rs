@@ -25,6 +25,9 @@ const BLINK: f32 = 1.0;
 /// What menus are drawn with, for one size of the window.
 pub(super) struct MenuPainter {
     size: PixelSize,
+    /// How much larger than usual text is, and what that comes to.
+    scale: f32,
+    largest: u16,
     batch: Batch,
     fonts: Fonts,
     dot: Sprite,
@@ -37,27 +40,38 @@ pub(super) struct MenuPainter {
 }
 
 impl MenuPainter {
-    /// Paints the sprites for a size of the window.
-    pub(super) fn new(size: PixelSize) -> Self {
-        let largest = layout::largest(size.to_vec());
+    /// Paints the sprites for a size of the window, and text `scale` times as large as usual.
+    pub(super) fn new(size: PixelSize, scale: f32) -> Self {
+        let largest = layout::largest(size.to_vec(), scale);
         let corner = f32::from(largest) * 4.0;
         let mut packer = Packer::default();
-        let fonts = FontTickets::paint(&mut packer, layout::pitches(size.to_vec()));
+        let fonts = FontTickets::paint(&mut packer, 1..=layout::largest_title(largest));
         let dot = packer.add(sprites::dot());
         let ball = packer.add(sprites::ball(f32::from(largest) * 4.0));
         let plate = packer.add(plate(corner));
         let (picture, sprite) = packer.pack();
         let (dot, ball, plate) = (sprite(dot).inner_part(), sprite(ball), sprite(plate));
-        Self { size, batch: Batch::new(&picture), fonts: fonts.resolve(&sprite), dot, ball, plate, corner, last: None }
+        Self {
+            size,
+            scale,
+            largest,
+            batch: Batch::new(&picture),
+            fonts: fonts.resolve(&sprite),
+            dot,
+            ball,
+            plate,
+            corner,
+            last: None,
+        }
     }
 
-    /// Whether it is for that size.
-    pub(super) fn fits(&self, size: PixelSize) -> bool {
-        self.size == size
+    /// Whether it is for that.
+    pub(super) fn fits(&self, size: PixelSize, scale: f32) -> bool {
+        self.size == size && self.scale == scale
     }
 
     /// The item at a point of the picture, as it was drawn last.
-    pub(super) fn hit(&self, at: Vec2) -> Option<usize> {
+    pub(super) fn hit(&self, at: Vec2) -> Option<(usize, f32)> {
         self.last.as_ref().and_then(|(_, _, layout)| layout.hit(at))
     }
 
@@ -66,7 +80,7 @@ impl MenuPainter {
         let known = self.last.take().filter(|(last, place, _)| last == view && *place == panel);
         let layout = match known {
             Some((_, _, layout)) => layout,
-            None => MenuLayout::new(self.size.to_vec(), panel, view),
+            None => MenuLayout::new(self.size.to_vec(), self.largest, panel, view),
         };
         if layout.covers {
             let all = Rect::new(0.0, 0.0, f32::from(self.size.width), f32::from(self.size.height));
@@ -115,7 +129,6 @@ impl MenuPainter {
             let bar = Rect::new(area.x - 3.0 * dots, area.y, area.w + 6.0 * dots, area.h);
             self.batch.stretch(self.dot, bar, tint(AMBER * 0.5, 0.30));
         }
-        let color = if has_focus { tint(AMBER, 1.0) } else { tint(AMBER.lerp(AMBER_DIM, 0.6), 1.0) };
         match &item.control {
             Control::Words => {
                 for (line, place) in row.lines.iter().zip(0_u8..) {
@@ -131,15 +144,66 @@ impl MenuPainter {
                 let x = area.right() - measure(value, layout.pitch).x;
                 self.text(value, vec2(x, y), layout.pitch, tint(AMBER, 1.0));
             }
-            Control::Address => self.field(&item.label, area, layout.pitch, has_focus, clock),
-            Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => {
-                if has_focus {
-                    let side = (8.0 * dots).min(area.h);
-                    let ball = Rect::new(area.x + 1.0 * dots, area.center().y - side / 2.0, side, side);
-                    self.batch.stretch(self.ball, ball, WHITE);
-                }
-                self.text(&item.label, vec2(area.x + 15.0 * dots, y), layout.pitch, color);
+            Control::Field(_) => self.field(&item.label, area, layout.pitch, has_focus, clock),
+            Control::Level { value, range: (least, most, step), .. } => {
+                self.label(layout, row, item, has_focus);
+                self.level(layout.bar(row), (value - least) / step, (most - least) / step, layout.pitch, has_focus);
             }
+            Control::Switch { is_on, .. } => {
+                self.label(layout, row, item, has_focus);
+                self.value(layout, row, if *is_on { "ON" } else { "OFF" }, has_focus || *is_on);
+            }
+            Control::Keys { keys, waits, .. } => {
+                self.label(layout, row, item, has_focus);
+                let blank = *waits && clock % BLINK > BLINK * 0.6;
+                let none = if blank { "" } else { "PRESS A KEY" };
+                let text = if *waits {
+                    none
+                } else if keys.is_empty() {
+                    "-"
+                } else {
+                    keys
+                };
+                self.value(layout, row, text, has_focus);
+            }
+            Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => {
+                self.label(layout, row, item, has_focus);
+            }
+        }
+    }
+
+    /// A label, with a ball in front of it if it has the focus.
+    fn label(&mut self, layout: &MenuLayout, row: &Row, item: &Item, has_focus: bool) {
+        let dots = f32::from(layout.pitch);
+        let area = row.area;
+        if has_focus {
+            let side = (8.0 * dots).min(area.h);
+            let ball = Rect::new(area.x + 1.0 * dots, area.center().y - side / 2.0, side, side);
+            self.batch.stretch(self.ball, ball, WHITE);
+        }
+        let y = area.center().y - f32::from(ROWS) * dots / 2.0;
+        self.text(&item.label, vec2(area.x + 15.0 * dots, y), layout.pitch, shade(has_focus));
+    }
+
+    /// What an item has at its right end.
+    fn value(&mut self, layout: &MenuLayout, row: &Row, text: &str, is_bright: bool) {
+        let pitch = self.fonts.fitting(text, layout.pitch, row.area.w * 0.7);
+        let corner =
+            vec2(row.area.right() - measure(text, pitch).x, row.area.center().y - f32::from(ROWS * pitch) / 2.0);
+        self.text(text, corner, pitch, shade(is_bright));
+    }
+
+    /// Steps of a level, lit up to its value.
+    fn level(&mut self, bar: Rect, value: u8, steps: u8, pitch: u16, has_focus: bool) {
+        let dots = f32::from(pitch);
+        let width = bar.w / f32::from(steps.max(1));
+        for step in 0..steps {
+            let height = dots * (3.0 + 5.0 * f32::from(step + 1) / f32::from(steps));
+            let bottom = bar.center().y + dots * 4.0;
+            let area =
+                Rect::new((bar.x + width * f32::from(step)).round(), bottom - height, (width - dots).round(), height);
+            let color = if step < value { shade(has_focus) } else { tint(DOT_OFF, 1.0) };
+            self.batch.stretch(self.dot, area, color);
         }
     }
 
@@ -189,6 +253,11 @@ impl MenuPainter {
             }
         }
     }
+}
+
+/// Of the item that has the focus, and of the others.
+fn shade(is_bright: bool) -> Color {
+    tint(if is_bright { AMBER } else { AMBER.lerp(AMBER_DIM, 0.6) }, 1.0)
 }
 
 /// Dark glass with an amber rim, small: it is stretched in its middle.
