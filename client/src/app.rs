@@ -17,7 +17,7 @@ use crate::controls::Controls;
 use crate::embedded::Embedded;
 use crate::input::{Keyboard, Wish};
 use crate::limiter::Limiter;
-use crate::menu::{Menu, Page};
+use crate::menu::{Menu, Page, Shelved};
 use crate::net::{Connection, Incoming};
 use crate::render::Renderer;
 use crate::report::Report;
@@ -64,6 +64,8 @@ pub(crate) struct App {
     keyboard: Keyboard,
     controls: Controls,
     menu: Menu,
+    /// The tables to choose from, once somebody wants to.
+    tables: Vec<Shelved>,
     /// When somebody chose to play who has no place yet.
     wants_place: Option<f64>,
     renderer: Renderer,
@@ -90,6 +92,7 @@ impl App {
             keyboard: Keyboard::new(),
             controls: Controls::new(store.settings.keys.clone()),
             menu: Menu::default(),
+            tables: Vec::new(),
             wants_place: None,
             goal: options.goal.clone(),
             home: Arc::clone(&backdrop),
@@ -176,7 +179,10 @@ impl App {
         match Connection::open(address, hello, self.epoch) {
             Ok(connection) => {
                 self.state = State::Connecting(connection);
-                self.menu.show(if let Goal::Own(_) = self.goal { Page::Title } else { Page::Connecting });
+                match self.goal {
+                    Goal::Own(_) => self.menu.show_title(),
+                    Goal::Hosted(..) | Goal::Server { .. } => self.menu.show(Page::Connecting),
+                }
             }
             Err(error) => self.lose(error.headline(), &error),
         }

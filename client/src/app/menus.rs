@@ -1,13 +1,18 @@
 //! What menus have to do with the rest of the program: what they are told, and what is done when something was chosen.
 
+use std::sync::Arc;
+
 use macroquad::window::set_fullscreen;
 use shared::protocol::Role;
+use shared::table::{SHIPPED, Shipped, Table};
 
 use super::{App, State, send};
 use crate::arguments::Goal;
-use crate::menu::{Facts, MenuAct, MenuEvent, MenuInput, Page, Room, Setting};
-use crate::screens;
+use crate::assemble;
+use crate::menu::{Facts, MenuAct, MenuEvent, MenuInput, Page, Room, Setting, Shelved};
+use crate::screens::{self, Words};
 use crate::streams::StreamChoice;
+use crate::view::View;
 
 /// Seconds for which a seat at one's own table is waited for.
 const SEAT_WAIT: f64 = 3.0;
@@ -31,7 +36,8 @@ impl App {
         };
         let keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
         let settings = self.store.settings.clone();
-        Facts { table: self.table.name.clone(), room, has_place, keys, settings, was_live, reason }
+        let tables = self.tables.clone();
+        Facts { table: self.table.name.clone(), tables, room, has_place, keys, settings, was_live, reason }
     }
 
     /// Gives the menu what happened; `false` if the person wants to quit.
@@ -56,6 +62,9 @@ impl App {
                 return false;
             }
         }
+        if self.menu.page() == Some(Page::Tables) && self.tables.is_empty() {
+            self.tables = self.read_tables();
+        }
         if matches!(page, Some(Page::Settings | Page::Keys)) && self.menu.page() != page {
             self.store.save();
         }
@@ -72,6 +81,12 @@ impl App {
                     session.play();
                 }
             }
+            MenuAct::PlayOn(shelved) => {
+                self.take(shelved);
+                self.menu.close();
+                self.wants_place = Some(self.now());
+            }
+            MenuAct::Take(shelved) => self.take(shelved),
             MenuAct::Host(mode) => self.go(Goal::Hosted(self.table.clone(), mode)),
             MenuAct::Join { address, role } => {
                 self.go(Goal::Server { address, role, choice: StreamChoice::default() });
@@ -102,6 +117,28 @@ impl App {
             MenuAct::Quit => return false,
         }
         true
+    }
+
+    /// The tables to choose from: those that come with the game, and one that was brought.
+    fn read_tables(&self) -> Vec<Shelved> {
+        let shelve = |table: Arc<Table>, about: &str| {
+            // All lights take part, so that the picture shows them.
+            let view = View { light_show: true, ..assemble::still_view(&table, Words::default(), 0.0) };
+            Shelved { table, about: about.to_owned(), view: Arc::new(view) }
+        };
+        let read =
+            |shipped: &Shipped| Table::shipped(shipped.name)?.ok().map(|table| shelve(table.into(), shipped.about));
+        let mut tables: Vec<Shelved> = SHIPPED.iter().filter_map(read).collect();
+        if tables.iter().all(|shelved| shelved.table.digest != self.home.digest) {
+            tables.insert(0, shelve(Arc::clone(&self.home), "The table that you brought"));
+        }
+        tables
+    }
+
+    /// Takes a table for what comes: the bot plays on it.
+    fn take(&mut self, shelved: Shelved) {
+        self.home = Arc::clone(&shelved.table);
+        self.go(Goal::Own(shelved.table));
     }
 
     /// A choice acts at once, and is remembered.

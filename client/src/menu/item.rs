@@ -2,7 +2,7 @@
 
 use shared::protocol::Role;
 
-use super::{MenuAct, Page};
+use super::{MenuAct, Page, Shelved};
 use crate::settings;
 
 /// An item of a page.
@@ -58,6 +58,8 @@ pub(crate) enum Control {
         /// The next key that is pressed is one of them, or no more.
         waits: bool,
     },
+    /// A table, with its picture.
+    Table(Shelved),
     /// Joins the room at the address.
     Join(Role),
 }

@@ -8,6 +8,7 @@
 mod input;
 mod item;
 mod pages;
+mod shelf;
 
 use macroquad::input::KeyCode;
 use shared::protocol::{MOST_NAME, Mode, Role, check_name};
@@ -15,6 +16,7 @@ use shared::protocol::{MOST_NAME, Mode, Role, check_name};
 pub(crate) use input::{MenuEvent, MenuSorter};
 pub(crate) use item::{Control, Field, Item, Setting};
 pub(crate) use pages::{Facts, Page, Room};
+pub(crate) use shelf::Shelved;
 
 use crate::settings::bindings::MOST_KEYS;
 use crate::settings::keys::Key;
@@ -45,6 +47,10 @@ pub(crate) enum MenuInput {
 pub(crate) enum MenuAct {
     /// Play on the table that is seen.
     Play,
+    /// Play on that table.
+    PlayOn(Shelved),
+    /// Take that table for what comes.
+    Take(Shelved),
     /// Open a room for others on that table.
     Host(Mode),
     /// Join a room, to play or to watch.
@@ -132,6 +138,13 @@ impl Menu {
     pub(crate) fn show(&mut self, page: Page) {
         self.stack.clear();
         self.open(page);
+    }
+
+    /// Opens the title, unless it is there, if only below other pages.
+    pub(crate) fn show_title(&mut self) {
+        if self.stack.first().is_none_or(|open| open.page != Page::Title) {
+            self.show(Page::Title);
+        }
     }
 
     /// Gives the screen to the game.
@@ -273,6 +286,14 @@ impl Menu {
                     Err(problem) => self.problem = problem,
                 }
             }
+            Control::Table(shelved) => {
+                if !self.stack.iter().any(|open| open.page == Page::Against) {
+                    return Some(MenuAct::PlayOn(shelved.clone()));
+                }
+                let shelved = shelved.clone();
+                self.close_page();
+                return Some(MenuAct::Take(shelved));
+            }
             Control::Level { value, range: (_, most, _), setting } if value == most => {
                 let Control::Level { range: (least, ..), .. } = &item.control else { return None };
                 return Some(MenuAct::Set(*setting, *least));
@@ -312,7 +333,7 @@ impl Menu {
             }
             Page::Pause | Page::Opened => Some(MenuAct::Resume),
             Page::Connecting | Page::Lost => Some(MenuAct::LeaveToTitle),
-            Page::Against | Page::Join(_) | Page::HowTo | Page::Settings | Page::Keys => {
+            Page::Against | Page::Join(_) | Page::HowTo | Page::Tables | Page::Settings | Page::Keys => {
                 self.close_page();
                 None
             }

@@ -2,7 +2,7 @@
 
 use shared::protocol::{Mode, Role};
 
-use super::{Control, Drafts, Field, Item, MenuAct, Setting};
+use super::{Control, Drafts, Field, Item, MenuAct, Setting, Shelved};
 use crate::arguments::check_address;
 use crate::embedded::USUAL_PORT;
 use crate::settings::{self, LARGEST_TEXT, Settings};
@@ -16,6 +16,8 @@ pub(crate) enum Page {
     Against,
     /// Asks for the address of a room.
     Join(Role),
+    /// The tables.
+    Tables,
     /// What can be chosen and is remembered.
     Settings,
     /// Which keys work what.
@@ -49,6 +51,8 @@ pub(crate) enum Room {
 pub(crate) struct Facts {
     /// Name of the table.
     pub(crate) table: String,
+    /// Those to choose from, once somebody wants to.
+    pub(crate) tables: Vec<Shelved>,
     /// Where the person is.
     pub(crate) room: Room,
     /// They have a seat, or a place in the line.
@@ -71,6 +75,7 @@ impl Page {
             Self::Against => "AGAINST SPECTATORS",
             Self::Join(Role::Play) => "JOIN A ROOM",
             Self::Join(Role::Watch) => "WATCH A ROOM",
+            Self::Tables => "TABLES",
             Self::Settings => "SETTINGS",
             Self::Keys => "KEYS",
             Self::HowTo => "HOW TO PLAY",
@@ -88,8 +93,9 @@ impl Page {
     pub(super) fn items(self, facts: &Facts, drafts: &Drafts) -> Vec<Item> {
         match self {
             Self::Title => title(facts),
-            Self::Against => against(),
+            Self::Against => against(facts),
             Self::Join(role) => join(role, &drafts.address),
+            Self::Tables => tables(facts),
             Self::Settings => settings_page(facts, drafts),
             Self::Keys => keys(facts, drafts),
             Self::HowTo => how_to(facts),
@@ -117,13 +123,14 @@ fn title(facts: &Facts) -> Vec<Item> {
         act("PLAY", MenuAct::Play).about(&format!("A game on {}: press ENTER", facts.table)),
         Item::new("AGAINST SPECTATORS", Control::Open(Page::Against)).about("Open a room for others, or join one"),
         Item::new("WATCH", Control::Open(Page::Join(Role::Watch))).about("See a game that is played elsewhere"),
+        Item::new("TABLES", Control::Open(Page::Tables)).about("Choose another table to play on"),
         Item::new("SETTINGS", Control::Open(Page::Settings)).about("Keys, sound, screen, your name"),
         Item::new("HOW TO PLAY", Control::Open(Page::HowTo)).about("The keys, and what to shoot for"),
         act("QUIT", MenuAct::Quit).about("ENTER or ESC: leave Starball"),
     ]
 }
 
-fn against() -> Vec<Item> {
+fn against(facts: &Facts) -> Vec<Item> {
     let host = |label: &str, mode, about: &str| act(label, MenuAct::Host(mode)).about(about);
     vec![
         Item::new("OPEN A ROOM", Control::Heading),
@@ -138,6 +145,7 @@ fn against() -> Vec<Item> {
             Mode::HeadToHead,
             "Two tables side by side, from the same moment; against the bot until somebody comes",
         ),
+        Item::new(&format!("TABLE: {}", facts.table), Control::Open(Page::Tables)).about("The table of that room"),
         Item::new("OR GO TO ONE", Control::Heading),
         Item::new("JOIN BY ADDRESS", Control::Open(Page::Join(Role::Play))).about("The host's screen says which"),
         Item::new("BACK", Control::Back),
@@ -156,6 +164,13 @@ fn join(role: Role, address: &str) -> Vec<Item> {
         Item::new(word, Control::Join(role)).about(about),
         Item::new("BACK", Control::Back),
     ]
+}
+
+fn tables(facts: &Facts) -> Vec<Item> {
+    let card = |shelved: &Shelved| Item::new(&shelved.table.name, Control::Table(shelved.clone()));
+    let mut items: Vec<Item> = facts.tables.iter().map(card).collect();
+    items.push(Item::new("BACK", Control::Back));
+    items
 }
 
 fn settings_page(facts: &Facts, drafts: &Drafts) -> Vec<Item> {

@@ -77,7 +77,7 @@ fn the_pointer_focuses_and_presses() {
     let mut menu = title();
     assert_eq!(menu.input(MenuInput::Hover(2), &facts()), None);
     assert_eq!(label(&menu), "WATCH");
-    assert_eq!(menu.input(MenuInput::Press(5, 0.0), &facts()), Some(MenuAct::Quit));
+    assert_eq!(menu.input(MenuInput::Press(6, 0.0), &facts()), Some(MenuAct::Quit));
     assert_eq!(menu.input(MenuInput::Press(99, 0.0), &facts()), None);
 }
 
@@ -114,6 +114,7 @@ fn every_page_has_something_to_choose_and_a_way_back() {
                 Page::Against,
                 Page::Join(Role::Play),
                 Page::Join(Role::Watch),
+                Page::Tables,
                 Page::Settings,
                 Page::Keys,
                 Page::HowTo,
@@ -198,4 +199,23 @@ fn a_key_is_added_taken_away_or_refused() {
     press(&mut menu, &mut facts, KeyCode::Enter);
     press(&mut menu, &mut facts, KeyCode::Escape);
     assert_eq!((menu.page(), keys(&facts).as_str()), (Some(Page::Keys), "X, Z, LEFT ARROW"), "only the waiting ends");
+}
+
+#[test]
+fn a_table_is_played_at_once_or_taken_for_a_room() {
+    let table = std::sync::Arc::new(shared::table::Table::shipped("classic").unwrap().unwrap());
+    let shelved = Shelved { table, about: String::new(), view: Default::default() };
+    let facts = Facts { tables: vec![shelved.clone()], ..facts() };
+    let mut menu = title();
+    to(&mut menu, "TABLES");
+    press(&mut menu, &[KeyCode::Enter]);
+    assert_eq!(menu.input(MenuInput::Press(0, 0.5), &facts), Some(MenuAct::PlayOn(shelved.clone())));
+    press(&mut menu, &[KeyCode::Escape]);
+    to(&mut menu, "AGAINST SPECTATORS");
+    press(&mut menu, &[KeyCode::Enter]);
+    to(&mut menu, "TABLE: Classic");
+    press(&mut menu, &[KeyCode::Enter]);
+    assert_eq!(menu.input(MenuInput::Key(KeyCode::Enter), &facts), Some(MenuAct::Take(shelved)));
+    menu.show_title();
+    assert_eq!(menu.page(), Some(Page::Against), "it is above the title");
 }

@@ -4,7 +4,7 @@
 //! `furniture`, `mechanisms`, `ramps`, on a `canvas` of `shape`s): the room, and the whole table, which is shown through an
 //! opening and scrolls if it is longer. What moves is cut out of one atlas of sprites (`sprites`, `dot_matrix`, `atlas`) and
 //! placed by `scene`, `balls`, `mechanisms`, `flashes`, `overlay`, `hud` and `crowd`, as `lights`, `sparks` and `popups` say;
-//! `minis` does both for boards that are small, `menu` for what lies over it all. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames
+//! `minis` does both for boards that are small, `preview` for pictures of tables, `menu` for what lies over it all. `layout`, `panels` and `camera` say where; `back_buffer` shows whole frames
 //! only.
 
 mod atlas;
@@ -29,6 +29,7 @@ mod palette;
 mod panels;
 mod playfield;
 mod popups;
+mod preview;
 mod ramps;
 mod scene;
 mod shape;
@@ -148,15 +149,24 @@ impl Renderer {
         let current = art.take().filter(|art| art.layout.size == size && art.comfort == comfort);
         let art = art.insert(current.unwrap_or_else(|| Art::paint(size, comfort, table)));
 
+        let painter = match menu {
+            Some(menu) => {
+                let current = painter.take().filter(|painter| painter.fits(size, comfort.text_scale));
+                let painter = painter.insert(current.unwrap_or_else(|| MenuPainter::new(size, comfort.text_scale)));
+                painter.lay_out(menu, art.panels.below_title());
+                painter.paint_preview(menu, blending);
+                Some((painter, menu))
+            }
+            None => None,
+        };
+
         // 2. The frame, whole, into the back buffer.
         let bottom = camera.follow(view, art.layout.reach());
         let painted = back_buffer.frame(size, || {
             paint_frame(table, blending, art, view, bottom).map(|()| {
-                if let Some(menu) = menu {
-                    let current = painter.take().filter(|painter| painter.fits(size, comfort.text_scale));
-                    let painter = painter.insert(current.unwrap_or_else(|| MenuPainter::new(size, comfort.text_scale)));
+                if let Some((painter, menu)) = painter {
                     blending.layer();
-                    painter.draw(menu, art.panels.below_title(), view.clock);
+                    painter.draw(menu, view.clock);
                 }
             })
         });

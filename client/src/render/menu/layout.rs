@@ -31,6 +31,9 @@ pub(super) struct Row {
     pub(super) area: Rect,
     /// Its label, line by line.
     pub(super) lines: Vec<String>,
+    /// Of a table: where its picture and its words stand.
+    pub(super) picture: Rect,
+    pub(super) words: Rect,
 }
 
 /// Where a page stands.
@@ -99,31 +102,45 @@ impl MenuLayout {
 
         // 1. How wide: the longest item, but words are broken.
         let title_pitch = if place == Place::Panel { 0 } else { title_pitch(&view.title, pitch, most) };
-        let wanted = view.items.iter().map(wanted_glyphs).fold(LEAST_GLYPHS, f32::max);
+        let cards = Cards::new(area, dots, view);
+        let wanted = view.items.iter().map(wanted_glyphs).fold(LEAST_GLYPHS.max(cards.glyphs()), f32::max);
         let least = view.items.iter().filter(|item| !is_words(item)).map(wanted_glyphs).fold(0.0, f32::max);
         if least * glyph > most && place != Place::Cut {
             return None;
         }
-        let width = if place == Place::Panel { most } else { (wanted.min(MOST_GLYPHS).max(least) * glyph).min(most) };
+        let most_glyphs = MOST_GLYPHS.max(least).max(cards.glyphs());
+        let width = if place == Place::Panel { most } else { (wanted.min(most_glyphs) * glyph).min(most) };
         let width = width.max(measure(&view.title, title_pitch).x.min(most));
 
         // 2. How high.
-        let lines: Vec<Vec<String>> = view.items.iter().map(|item| lines_of(item, width, pitch)).collect();
-        let heights: Vec<f32> =
-            view.items.iter().zip(&lines).map(|(item, lines)| height(item, lines.len()) * dots).collect();
+        let words = cards.words(width);
+        let lines: Vec<Vec<String>> =
+            view.items.iter().map(|item| lines_of(item, width, words, pitch, small)).collect();
+        let heights: Vec<f32> = view
+            .items
+            .iter()
+            .zip(&lines)
+            .map(|(item, lines)| match item.control {
+                Control::Table(_) => cards.height(lines.len(), f32::from(small)),
+                _ => height(item, lines.len()) * dots,
+            })
+            .collect();
         let notes = view.items.iter().map(|item| &item.note).chain([&view.problem]);
         let note_lines = notes.map(|note| wrap(note, width, small).len()).max().unwrap_or(0) as f32;
         let note_height = if note_lines > 0.0 { note_lines * LINE * f32::from(small) + 4.0 * dots } else { 0.0 };
         let title_height = if title_pitch > 0 { f32::from(ROWS * title_pitch) + 9.0 * dots } else { 0.0 };
         let room = area.h - 2.0 * (outer + margin) - title_height - note_height;
-        let needed: f32 = heights.iter().sum();
+        let needed: f32 = heights.iter().sum::<f32>() - cards.saved(&heights);
         if needed > room && place != Place::Cut {
             return None;
         }
 
         // 3. Which items, should there be no room for all: those around the focus.
-        let shown = window(&heights, view.focus, room);
-        let height = heights[shown.clone()].iter().sum::<f32>() + title_height + note_height + 2.0 * margin;
+        let shown = if cards.is_beside { 0..heights.len() } else { window(&heights, view.focus, room) };
+        let height = heights[shown.clone()].iter().sum::<f32>() - cards.saved(&heights)
+            + title_height
+            + note_height
+            + 2.0 * margin;
         let plate = match place {
             Place::Panel => area,
             Place::Middle | Place::Cut => {
@@ -140,8 +157,16 @@ impl MenuLayout {
         let spread = spare.clamp(0.0, 5.0 * dots).floor();
         let mut rows = Vec::new();
         for (item, lines) in lines.into_iter().enumerate().skip(shown.start).take(shown.len()) {
-            rows.push(Row { item, area: Rect::new(left, y.round(), width, heights[item]), lines });
-            y += heights[item] + spread;
+            let place = Rect::new(left, y.round(), width, heights[item]);
+            let (area, picture, words) = match view.items[item].control {
+                Control::Table(_) => cards.place(item, place),
+                _ => (place, Rect::default(), Rect::default()),
+            };
+            rows.push(Row { item, area, lines, picture, words });
+            // Cards beside each other are one row.
+            if !cards.is_beside || item + 1 >= cards.count {
+                y += heights[item] + spread;
+            }
         }
         let about = view.items.get(view.focus).map_or("", |item| item.note.as_str());
         let text = if view.problem.is_empty() { about } else { &view.problem };
@@ -163,6 +188,78 @@ impl MenuLayout {
         let width = LEVEL * f32::from(ADVANCE * self.pitch);
         let width = width.min(w / 2.0);
         Rect::new(row.area.right() - width, y, width, h)
+    }
+}
+
+/// How the tables of a page stand: beside each other where the window is wide, their words below their pictures; else below
+/// each other, their words beside their pictures. They come first on their page.
+#[derive(Debug, Clone, Copy)]
+struct Cards {
+    count: usize,
+    is_beside: bool,
+    /// Pixels of a picture's place.
+    picture: Vec2,
+    dots: f32,
+}
+
+impl Cards {
+    fn new(area: Rect, dots: f32, view: &MenuView) -> Self {
+        let count = view.items.iter().filter(|item| matches!(item.control, Control::Table(_))).count();
+        let is_beside = count > 0 && area.w > area.h * 1.1;
+        let high = if is_beside { area.h * 0.44 } else { area.h * (0.56 / count.max(1) as f32).min(0.26) };
+        let wide = if is_beside { high } else { high * 0.62 };
+        Self { count, is_beside, picture: vec2(wide, high).floor(), dots }
+    }
+
+    /// Glyphs of all of them.
+    fn glyphs(&self) -> f32 {
+        match self.count {
+            0 => 0.0,
+            count if self.is_beside => (count as f32 * 24.0).min(72.0),
+            _ => 40.0,
+        }
+    }
+
+    /// Pixels of a card, and of its words.
+    fn cell(&self, width: f32) -> f32 {
+        let gaps = (self.count.max(1) - 1) as f32 * 8.0 * self.dots;
+        if self.is_beside { ((width - gaps) / self.count.max(1) as f32).floor() } else { width }
+    }
+
+    fn words(&self, width: f32) -> f32 {
+        let cell = self.cell(width);
+        if self.is_beside { cell } else { cell - self.picture.x - 6.0 * self.dots }
+    }
+
+    /// Of a card with so many lines, the first of them its name.
+    fn height(&self, lines: usize, small: f32) -> f32 {
+        let words = LINE * (self.dots + lines.saturating_sub(1) as f32 * small) + 2.0 * self.dots;
+        let both = if self.is_beside { self.picture.y + 4.0 * self.dots + words } else { self.picture.y.max(words) };
+        both + 5.0 * self.dots
+    }
+
+    /// What cards beside each other do not take of the sum of heights.
+    fn saved(&self, heights: &[f32]) -> f32 {
+        if !self.is_beside {
+            return 0.0;
+        }
+        let cards = &heights[..self.count];
+        cards.iter().sum::<f32>() - cards.last().copied().unwrap_or(0.0)
+    }
+
+    /// All of a card, its picture, its words.
+    fn place(&self, place: usize, row: Rect) -> (Rect, Rect, Rect) {
+        let cell = self.cell(row.w);
+        let gap = 4.0 * self.dots;
+        if self.is_beside {
+            let x = (row.x + place as f32 * (cell + 8.0 * self.dots)).round();
+            let picture = Rect::new(x, row.y, cell, self.picture.y);
+            let words = Rect::new(x, picture.bottom() + gap, cell, row.h - picture.h - gap);
+            return (Rect::new(x, row.y, cell, row.h), picture, words);
+        }
+        let picture = Rect::new(row.x, row.y, self.picture.x, self.picture.y);
+        let words = Rect::new(picture.right() + 6.0 * self.dots, row.y + gap, self.words(row.w), row.h - gap);
+        (row, picture, words)
     }
 }
 
@@ -198,7 +295,7 @@ fn wanted_glyphs(item: &Item) -> f32 {
         Control::Words | Control::Heading => label,
         Control::Pair(value) => label + 2.0 + value.chars().count() as f32,
         // A long address is cut.
-        Control::Field(_) => LEAST_GLYPHS,
+        Control::Field(_) | Control::Table(_) => LEAST_GLYPHS,
         Control::Level { .. } => CURSOR + label + 2.0 + LEVEL,
         Control::Switch { .. } => CURSOR + label + 2.0 + 3.0,
         Control::Keys { keys, .. } => CURSOR + label + 2.0 + (keys.chars().count() as f32).max(11.0),
@@ -212,14 +309,24 @@ fn height(item: &Item, lines: usize) -> f32 {
         Control::Words => LINE * lines as f32 + 3.0,
         Control::Heading => ABOVE_HEADING + LINE,
         Control::Pair(_) => LINE,
+        // See `Cards`.
+        Control::Table(_) => 0.0,
         Control::Field(_) => ITEM + 4.0,
         Control::Level { .. } | Control::Switch { .. } | Control::Keys { .. } => ITEM,
         Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => ITEM,
     }
 }
 
-fn lines_of(item: &Item, width: f32, pitch: u16) -> Vec<String> {
-    if is_words(item) { wrap(&item.label, width, pitch) } else { vec![item.label.clone()] }
+/// `words`: the width of a table's.
+fn lines_of(item: &Item, width: f32, words: f32, pitch: u16, small: u16) -> Vec<String> {
+    match &item.control {
+        Control::Words => wrap(&item.label, width, pitch),
+        Control::Table(shelved) => {
+            let name = wrap(&item.label, words, pitch).into_iter().take(1);
+            name.chain(wrap(&shelved.about, words, small)).collect()
+        }
+        _ => vec![item.label.clone()],
+    }
 }
 
 /// Breaks a text at blanks; a word that is longer than a line is broken where the line ends.

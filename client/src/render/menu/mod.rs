@@ -4,7 +4,7 @@ mod layout;
 
 use macroquad::color::{Color, WHITE};
 use macroquad::math::{Rect, Vec2, Vec3, vec2};
-use macroquad::texture::Image;
+use macroquad::texture::{DrawTextureParams, Image, RenderTarget, draw_texture_ex};
 
 use super::atlas::{Batch, Packer, Sprite};
 use super::canvas::{Canvas, ink};
@@ -12,8 +12,8 @@ use super::dot_matrix::{FontTickets, Fonts, ROWS, cells, measure};
 use super::layout::PixelSize;
 use super::palette::{AMBER, AMBER_DIM, DECOR, DOT_OFF, ICE, IVORY, NIGHT, RED, tint};
 use super::shape::Shape;
-use super::sprites;
-use crate::menu::{Control, Item, MenuView, Page};
+use super::{Blending, preview, sprites};
+use crate::menu::{Control, Item, MenuView, Page, Shelved};
 use layout::{MenuLayout, Row};
 
 /// How dark the picture is behind a page that lies over it, and behind the title, where the bot plays.
@@ -35,8 +35,16 @@ pub(super) struct MenuPainter {
     plate: Sprite,
     /// Pixels of the plate's corners.
     corner: f32,
+    previews: Vec<Preview>,
     /// What was drawn last, and where: what a pointer hits is what is seen.
     last: Option<(MenuView, Rect, MenuLayout)>,
+}
+
+/// A picture of a table.
+struct Preview {
+    digest: u64,
+    size: PixelSize,
+    target: RenderTarget,
 }
 
 impl MenuPainter {
@@ -61,6 +69,7 @@ impl MenuPainter {
             ball,
             plate,
             corner,
+            previews: Vec::new(),
             last: None,
         }
     }
@@ -75,13 +84,36 @@ impl MenuPainter {
         self.last.as_ref().and_then(|(_, _, layout)| layout.hit(at))
     }
 
-    /// Draws a page. `panel`: where a short one may stand beside the table.
-    pub(super) fn draw(&mut self, view: &MenuView, panel: Rect, clock: f32) {
-        let known = self.last.take().filter(|(last, place, _)| last == view && *place == panel);
-        let layout = match known {
-            Some((_, _, layout)) => layout,
-            None => MenuLayout::new(self.size.to_vec(), self.largest, panel, view),
-        };
+    /// Says where a page stands. `panel`: where a short one may stand beside the table.
+    pub(super) fn lay_out(&mut self, view: &MenuView, panel: Rect) {
+        let is_known = self.last.as_ref().is_some_and(|(last, place, _)| last == view && *place == panel);
+        if !is_known {
+            let layout = MenuLayout::new(self.size.to_vec(), self.largest, panel, view);
+            self.last = Some((view.clone(), panel, layout));
+        }
+    }
+
+    /// Paints the picture of a table that has none yet: one a frame, so that none takes long.
+    pub(super) fn paint_preview(&mut self, view: &MenuView, blending: &Blending) {
+        let Some((_, _, layout)) = &self.last else { return };
+        for row in &layout.rows {
+            if let Some(Control::Table(shelved)) = view.items.get(row.item).map(|item| &item.control) {
+                let place = preview::fitted(row.picture, &shelved.table.file);
+                let size = PixelSize { width: place.w.max(1.0) as u16, height: place.h.max(1.0) as u16 };
+                let is_there = |known: &Preview| known.digest == shelved.table.digest && known.size == size;
+                if !self.previews.iter().any(is_there) {
+                    self.previews.retain(|known| known.digest != shelved.table.digest);
+                    let target = preview::paint(size, &shelved.table.file, &shelved.view, blending);
+                    self.previews.push(Preview { digest: shelved.table.digest, size, target });
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Draws a page where it was laid out.
+    pub(super) fn draw(&mut self, view: &MenuView, clock: f32) {
+        let Some((_, _, layout)) = self.last.clone() else { return };
         if layout.covers {
             let all = Rect::new(0.0, 0.0, f32::from(self.size.width), f32::from(self.size.height));
             let dim = if view.page == Page::Title { TITLE_DIM } else { DIM };
@@ -117,7 +149,20 @@ impl MenuPainter {
             self.fonts.line(&mut self.batch, line, corner, layout.small, color);
         }
         self.batch.flush();
-        self.last = Some((view.clone(), panel, layout));
+        for row in &layout.rows {
+            if let Some(Control::Table(shelved)) = view.items.get(row.item).map(|item| &item.control) {
+                self.preview(row, shelved);
+            }
+        }
+    }
+
+    /// The picture of a table, if it is there already.
+    fn preview(&self, row: &Row, shelved: &Shelved) {
+        let Some(known) = self.previews.iter().find(|known| known.digest == shelved.table.digest) else { return };
+        let place = preview::fitted(row.picture, &shelved.table.file);
+        // A render target's first row is its lowest.
+        let params = DrawTextureParams { dest_size: Some(place.size()), flip_y: true, ..DrawTextureParams::default() };
+        draw_texture_ex(&known.target.texture, place.x, place.y, WHITE, params);
     }
 
     fn row(&mut self, layout: &MenuLayout, row: &Row, item: &Item, has_focus: bool, clock: f32) {
@@ -125,7 +170,7 @@ impl MenuPainter {
         let area = row.area;
         let text = f32::from(ROWS) * dots;
         let y = area.y + (area.h - text) / 2.0;
-        if has_focus {
+        if has_focus && row.picture.w == 0.0 {
             let bar = Rect::new(area.x - 3.0 * dots, area.y, area.w + 6.0 * dots, area.h);
             self.batch.stretch(self.dot, bar, tint(AMBER * 0.5, 0.30));
         }
@@ -166,9 +211,28 @@ impl MenuPainter {
                 };
                 self.value(layout, row, text, has_focus);
             }
+            Control::Table(shelved) => self.card(layout, row, shelved, has_focus),
             Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => {
                 self.label(layout, row, item, has_focus);
             }
+        }
+    }
+
+    /// A table's name and what it is like, beside or below its picture; a frame around what has the focus.
+    fn card(&mut self, layout: &MenuLayout, row: &Row, shelved: &Shelved, has_focus: bool) {
+        let dots = f32::from(layout.pitch);
+        let frame = preview::fitted(row.picture, &shelved.table.file);
+        let rim = if has_focus { dots } else { (dots / 2.0).ceil() };
+        let frame = Rect::new(frame.x - rim, frame.y - rim, frame.w + 2.0 * rim, frame.h + 2.0 * rim);
+        self.batch.stretch(self.dot, frame, if has_focus { tint(AMBER, 1.0) } else { tint(DECOR, 0.5) });
+        let (corner, mut y) = (row.words, row.words.y);
+        for (line, place) in row.lines.iter().zip(0_u8..) {
+            let (pitch, color) = match place {
+                0 => (layout.pitch, shade(has_focus)),
+                _ => (layout.small, tint(ICE, 0.85)),
+            };
+            self.text(line, vec2(corner.x, y), pitch, color);
+            y += f32::from(pitch) * 11.0 + if place == 0 { 2.0 * dots } else { 0.0 };
         }
     }
 
