@@ -64,6 +64,8 @@ pub(crate) struct App {
     keyboard: Keyboard,
     controls: Controls,
     menu: Menu,
+    /// The page of the last frame.
+    last_page: Option<Page>,
     /// The tables to choose from, once somebody wants to.
     tables: Vec<Shelved>,
     /// When somebody chose to play who has no place yet.
@@ -92,6 +94,7 @@ impl App {
             keyboard: Keyboard::new(),
             controls: Controls::new(store.settings.keys.clone()),
             menu: Menu::default(),
+            last_page: None,
             tables: Vec::new(),
             wants_place: None,
             goal: options.goal.clone(),
@@ -133,6 +136,7 @@ impl App {
         self.renderer.draw(&self.view, menu.as_ref());
         self.report.drawn(now);
         self.note_window();
+        self.note_page();
         let is_pictured = self.take_picture(now);
         if wants_quit || !goes_on || is_pictured {
             return Step::Quit;

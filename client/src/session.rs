@@ -237,6 +237,7 @@ impl Session {
         if !self.is_leaving {
             if place != self.place {
                 self.prediction = None;
+                tracing::debug!("place: {place:?}");
             }
             (self.place, self.line) = (place, line);
         }

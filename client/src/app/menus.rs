@@ -71,6 +71,15 @@ impl App {
         true
     }
 
+    /// What is on the screen is in the log, for whoever wants to know.
+    pub(super) fn note_page(&mut self) {
+        let page = self.menu.page();
+        if page != self.last_page {
+            tracing::debug!("page: {page:?}");
+            self.last_page = page;
+        }
+    }
+
     /// Does what was chosen; `false` if that is to quit.
     fn act(&mut self, act: MenuAct) -> bool {
         match act {
