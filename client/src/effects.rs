@@ -40,6 +40,8 @@ pub(crate) struct Effects {
     /// The last nudge from each side, and when.
     slaps: Vec<(Nudge, f64)>,
     bursts: Bursts,
+    /// Balls that saucers have caught since balls were seen last.
+    caught: usize,
     /// When something great was reached, and when the game tilted.
     cheered: Option<f64>,
     tilted: Option<f64>,
@@ -47,9 +49,13 @@ pub(crate) struct Effects {
 }
 
 impl Effects {
-    /// Takes in what happened, seen at `now` seconds while `loose` balls were in play that no saucer holds.
+    /// Takes in what happened, seen at `now` seconds while `loose` balls were in play that no saucer held when they were seen
+    /// last.
     pub(crate) fn note(&mut self, event: &GameEvent, table: &Table, loose: usize, now: f64) {
         self.bursts.note(event, table, now);
+        if matches!(event.kind, GameEventKind::Held { .. }) {
+            self.caught += 1;
+        }
         match event.kind {
             GameEventKind::Kicked { element, .. }
             | GameEventKind::Felled { element, .. }
@@ -71,9 +77,12 @@ impl Effects {
             }
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
             // One that takes the place of a ball in a lock is no multiball.
-            GameEventKind::Added { .. } if loose > 0 => self.say("MULTIBALL".to_owned(), now),
+            GameEventKind::Added { .. } if loose > self.caught => self.say("MULTIBALL".to_owned(), now),
             GameEventKind::Saved { .. } => self.say("BALL SAVED".to_owned(), now),
-            GameEventKind::ExtraBall { .. } => self.say("EXTRA BALL".to_owned(), now),
+            GameEventKind::ExtraBall { .. } => {
+                self.cheered = Some(now);
+                self.say("EXTRA BALL".to_owned(), now);
+            }
             GameEventKind::Again { .. } => self.say("SHOOT AGAIN".to_owned(), now),
             GameEventKind::Lost { .. } => self.say("BALL LOST".to_owned(), now),
             GameEventKind::Forfeited { .. } => self.say("TURN LOST".to_owned(), now),
@@ -115,6 +124,7 @@ impl Effects {
 
     /// Takes in where balls of a radius in metres are seen at `now`, and how they spin.
     pub(crate) fn see(&mut self, balls: &[Motion], radius: f32, now: f64) {
+        self.caught = 0;
         self.rolling.see(balls, radius, now);
         self.bursts.see(balls.iter().map(|ball| ball.position.as_vec2()));
     }
@@ -253,5 +263,13 @@ mod tests {
         assert_eq!(effects.message(10.0), None);
         effects.note(&added, &table, 1, 11.0);
         assert_eq!(effects.message(11.0), Some("MULTIBALL"));
+        // Caught in the same frame in which another one is served for it.
+        let mut effects = Effects::default();
+        effects.note(&GameEvent { tick: 0, kind: GameEventKind::Held { element: 0 } }, &table, 1, 12.0);
+        effects.note(&added, &table, 1, 12.0);
+        assert_eq!(effects.message(12.0), None);
+        effects.see(&[], 0.01, 12.1);
+        effects.note(&added, &table, 1, 12.2);
+        assert_eq!(effects.message(12.2), Some("MULTIBALL"));
     }
 }

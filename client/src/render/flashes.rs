@@ -28,7 +28,7 @@ const ROCKETS: [(f32, f32, f32); 6] = [
     (1.2, 0.5, 0.42),
 ];
 const ROCKET_SLOWER: f32 = 0.42;
-const ROCKET_WIDER: f32 = 2.2;
+const ROCKET_WIDER: f32 = 1.7;
 /// Seconds that the glow of a cheer lasts.
 const CHEER: f32 = 2.2;
 /// Seconds for which the word of a tilt stands over the table.
@@ -109,19 +109,18 @@ impl Stage<'_> {
                 continue;
             }
             let position = corner + size * vec2(x, 1.0 - y);
-            let burst =
-                Burst { position, strength: 1.0, age, kind: BurstKind::Kicker, seed: place, ..Burst::default() };
             let color = [AMBER, ICE, RED.lerp(IVORY, 0.3)][place as usize % 3];
             let center = self.layout.point(position);
             let width = self.layout.length(SPARK * 1.3).max(2.0);
-            for (spark, salt) in sparks(&burst).zip(0..) {
-                let [from, to] = [spark.from, spark.to].map(|end| {
-                    let end = position + (end - position) * ROCKET_WIDER;
-                    self.layout.point(end)
-                });
+            let burst = |seed| Burst { position, strength: 1.0, age, seed, ..Burst::default() };
+            // Of two bursts, so that there are enough.
+            let bursts = [burst(place), burst(place + 64)];
+            for (spark, salt) in bursts.iter().flat_map(sparks).zip(0..) {
+                let [from, to] =
+                    [spark.from, spark.to].map(|end| self.layout.point(position + (end - position) * ROCKET_WIDER));
                 let twinkle = 0.6 + 0.4 * noise(salt, (seconds * 20.0) as i32);
                 let color = fire(color.lerp(Vec3::ONE, 0.25), spark.glow * twinkle);
-                self.batch.bar(self.sprites.streak, from.lerp(center, 0.25), to, width, color);
+                self.batch.bar(self.sprites.streak, from.lerp(center, 0.2), to, width, color);
             }
             let fresh = 1.0 - age / HIT;
             if fresh > 0.0 {
