@@ -101,9 +101,12 @@ impl Finished<'_, RenderTarget> {
     pub(super) fn present(self) {
         let Slot { size, target } = self.0;
         set_default_camera();
-        clear_background(BLACK);
         // A default camera counts in points, of which a screen of high density has fewer than pixels.
-        let place = letterbox(*size, vec2(screen_width(), screen_height()));
+        let window = vec2(screen_width(), screen_height());
+        let place = letterbox(*size, window);
+        if place.size() != window {
+            clear_background(BLACK);
+        }
         let params = DrawTextureParams {
             dest_size: Some(vec2(place.w, place.h)),
             // A render target's first row is its lowest.

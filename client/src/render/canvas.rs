@@ -213,6 +213,23 @@ pub(super) fn paint_in_bands(width: u16, height: u16, paint: impl Fn(&mut Canvas
     Image { width, height, bytes: bands.concat() }
 }
 
+/// The part of a picture that is not empty, and where its corner is; a single empty pixel if there is none.
+pub(super) fn cropped(picture: &Image) -> (Image, Vec2) {
+    let width = usize::from(picture.width);
+    let is_painted = |place: usize| picture.bytes[place * 4..][..4] != [0; 4];
+    let painted =
+        (0..picture.bytes.len() / 4).filter(|place| is_painted(*place)).map(|place| (place % width, place / width));
+    let bounds = painted.fold(None, |bounds: Option<[usize; 4]>, (x, y)| {
+        let [left, top, right, bottom] = bounds.unwrap_or([x, y, x, y]);
+        Some([left.min(x), top.min(y), right.max(x), bottom.max(y)])
+    });
+    let [left, top, right, bottom] = bounds.unwrap_or_default();
+    let rows = (top..=bottom).map(|row| &picture.bytes[(row * width + left) * 4..=(row * width + right) * 4 + 3]);
+    let bytes = rows.collect::<Vec<_>>().concat();
+    let part = Image { width: (right - left + 1) as u16, height: (bottom - top + 1) as u16, bytes };
+    (part, vec2(left as f32, top as f32))
+}
+
 /// A picture reduced to so many pixels, or as it is where it is smaller: each is the mean of what it covers, by area.
 pub(super) fn reduced(picture: &Image, width: u16, height: u16) -> Image {
     let (width, height) = (width.clamp(1, picture.width.max(1)), height.clamp(1, picture.height.max(1)));
@@ -297,6 +314,17 @@ mod tests {
         let mut whole = Canvas::new(50, 77);
         paint(&mut whole);
         assert_eq!(paint_in_bands(50, 77, paint).bytes, whole.into_image().bytes);
+    }
+
+    #[test]
+    fn a_cropped_picture_is_what_is_painted_of_it() {
+        let mut canvas = Canvas::new(9, 7);
+        canvas.wash(Rect::new(3.0, 2.0, 4.0, 3.0), |_| ink(Vec3::ONE, 1.0));
+        let (part, corner) = cropped(&canvas.into_image());
+        assert_eq!((part.width, part.height, corner), (4, 3, vec2(3.0, 2.0)));
+        assert_eq!(part.bytes, [255; 48]);
+        let (nothing, _) = cropped(&Canvas::new(9, 7).into_image());
+        assert_eq!((nothing.width, nothing.height, nothing.bytes.len()), (1, 1, 4));
     }
 
     #[test]

@@ -170,6 +170,13 @@ impl Layout {
         Self { cabinet: self.cabinet.offset(down), ..self.clone() }
     }
 
+    /// The whole pixels of the picture that the table hides, frame included.
+    pub(super) fn covered(&self) -> Rect {
+        let Rect { x, y, w, h } =
+            self.cabinet.intersect(Rect::new(0.0, 0.0, self.size.to_vec().x, self.size.to_vec().y)).unwrap_or_default();
+        Rect::new(x, y, w.floor(), h.floor())
+    }
+
     /// The part of the playfield that is seen.
     pub(super) fn seen_playfield(&self) -> Rect {
         self.playfield().intersect(self.opening).unwrap_or_default()
@@ -289,6 +296,20 @@ mod tests {
         let board = layout.of_board();
         assert_eq!(board.scale, layout.scale);
         assert!(f32::from(board.size.height) >= layout.cabinet.h);
+    }
+
+    #[test]
+    fn what_the_table_covers_is_whole_pixels_in_the_picture() {
+        for (width, height) in [(1280, 720), (1280, 400), (500, 900), (800, 600)] {
+            let layout = Layout::new(PixelSize { width, height }, TABLE);
+            for layout in [layout.clone(), layout.scrolled(0.1), layout.jolted(0.0), layout.shaken(vec2(9.0, -9.0))] {
+                let covered = layout.covered();
+                assert!(inside(covered, layout.size.to_vec()), "{covered:?}");
+                for side in [covered.x, covered.y, covered.w, covered.h] {
+                    assert!(side == side.round() && side >= 0.0, "{covered:?}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -90,8 +90,8 @@ impl Minis {
         draw_texture(&board.still, slot.x, slot.y, WHITE);
         let layout = &layout.moved(vec2(slot.x, slot.y));
         let draw_above = || {
-            if let Some(above) = &board.above {
-                draw_texture(above, slot.x, slot.y, WHITE);
+            if let Some((above, place)) = &board.above {
+                draw_texture(above, slot.x + place.x, slot.y + place.y, WHITE);
             }
         };
         Stage { layout, panels, table, sprites, fonts, batch }.draw(view, draw_above);

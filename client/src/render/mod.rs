@@ -104,8 +104,8 @@ struct Art {
 /// What stands still of a table, as large as the table with its frame.
 struct Board {
     still: Texture2D,
-    /// What of it lies above balls on the board, on a clear ground.
-    above: Option<Texture2D>,
+    /// What of it lies above balls on the board, on a clear ground, and where on the picture: most of that is empty.
+    above: Option<(Texture2D, Vec2)>,
     /// The same two as they were painted: small boards are made of them.
     pictures: (Image, Option<Image>),
 }
@@ -208,14 +208,17 @@ fn paint_frame(
 
     // 1. What stands still covers every pixel of the last frame.
     blending.overwrite();
-    draw_texture(room, 0.0, 0.0, WHITE);
+    for part in around(resting.size.to_vec(), layout.covered()) {
+        let params = DrawTextureParams { source: Some(part), ..DrawTextureParams::default() };
+        draw_texture_ex(room, part.x, part.y, WHITE, params);
+    }
     draw_texture(&board.still, corner.x, corner.y, WHITE);
 
     // 2. What moves on the table.
     blending.layer();
     let draw_above = || {
-        if let Some(above) = &board.above {
-            draw_texture(above, corner.x, corner.y, WHITE);
+        if let Some((above, place)) = &board.above {
+            draw_texture(above, corner.x + place.x, corner.y + place.y, WHITE);
         }
     };
     let mut stage = Stage { layout, panels, table, sprites, fonts, batch };
@@ -288,7 +291,11 @@ impl Board {
 
     /// Of what was painted.
     fn of(pictures: (Image, Option<Image>)) -> Self {
-        Self { still: still_texture(&pictures.0), above: pictures.1.as_ref().map(still_texture), pictures }
+        let above = pictures.1.as_ref().map(|above| {
+            let (part, place) = canvas::cropped(above);
+            (still_texture(&part), place)
+        });
+        Self { still: still_texture(&pictures.0), above, pictures }
     }
 
     /// The same at another size, smaller: made within milliseconds, where painting anew would hold up the game.
@@ -297,6 +304,15 @@ impl Board {
         let (still, above) = &self.pictures;
         Self::of((reduced(still), above.as_ref().map(reduced)))
     }
+}
+
+/// The parts of a picture around a place in it.
+fn around(picture: Vec2, place: Rect) -> impl Iterator<Item = Rect> {
+    let upper = Rect::new(0.0, 0.0, picture.x, place.y);
+    let lower = Rect::new(0.0, place.bottom(), picture.x, picture.y - place.bottom());
+    let left = Rect::new(0.0, place.y, place.x, place.h);
+    let right = Rect::new(place.right(), place.y, picture.x - place.right(), place.h);
+    [upper, lower, left, right].into_iter().filter(|part| part.w > 0.0 && part.h > 0.0)
 }
 
 /// A picture that is drawn pixel for pixel.
