@@ -81,12 +81,15 @@ fn lower_light(layout: &Layout) -> Vec2 {
 fn ground(canvas: &mut Canvas, layout: &Layout, focus: Vec2) {
     let field = layout.playfield();
     let unit = field.w;
-    let mut dim = pools(layout, focus);
-    dim.push(lower_light(layout));
+    // Their middles, and how bright they are beside the focus.
+    let mut dim: Vec<(Vec2, f32)> = pools(layout, focus).into_iter().map(|center| (center, 0.62)).collect();
+    dim.push((lower_light(layout), 0.42));
     canvas.wash(field, |p| {
         let near = 1.0 - smooth(0.0, unit * 1.08, p.distance(focus));
-        let low = |center: &Vec2| 1.0 - smooth(0.0, unit * 0.71, ((p - *center) * vec2(1.0, 0.8)).length());
-        let lit = (near * 0.85 + dim.iter().map(low).fold(0.0, f32::max) * 0.42).min(1.0);
+        let low = |(center, strength): &(Vec2, f32)| {
+            strength * (1.0 - smooth(0.0, unit * 0.71, ((p - *center) * vec2(1.0, 0.8)).length()))
+        };
+        let lit = (near * 0.85 + dim.iter().map(low).fold(0.0, f32::max)).min(1.0);
         // A hint of violet nebula, so that the blue is not flat.
         let cloud = clouds(p / (unit * 0.22));
         let violet = Vec3::new(0.10, 0.02, 0.13) * smooth(0.42, 0.8, cloud) * (0.35 + 0.65 * lit);
