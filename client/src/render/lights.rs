@@ -12,6 +12,8 @@ const PATTERN: f32 = 5.0;
 const SLOW: f32 = 0.22;
 /// Seconds that the lamps take to go out after a tilt, and where nothing may strobe.
 const OUT: (f32, f32) = (0.45, 1.5);
+/// What is left of a flash where nothing may strobe.
+const GLIMMER: f32 = 0.35;
 /// Seconds for which inserts cheer.
 const CHEER: f32 = 2.0;
 
@@ -39,6 +41,16 @@ pub(super) fn brightness(view: &View, insert: Insert, state: ElementView) -> f32
         Some(seconds) if seconds < CHEER => lit.max(cheer(seconds, insert, view.reduced_flashing)),
         _ => lit,
     }
+}
+
+/// The same view for who wants no flashing: what was hit only glimmers, and the table stands still.
+pub(super) fn calmed(view: &View) -> View {
+    let mut calmed = View { reduced_flashing: true, cabinet: Vec2::ZERO, ..view.clone() };
+    calmed.slaps = view.slaps.map(|slap| slap * GLIMMER);
+    for element in &mut calmed.elements {
+        element.flash *= GLIMMER;
+    }
+    calmed
 }
 
 /// How far the lamps are out so many seconds after a tilt, 0 to 1: they flicker first.
@@ -144,6 +156,15 @@ mod tests {
             let mean = (0_u8..60).map(|frame| sum(f32::from(second) + f32::from(frame) / 60.0)).sum::<f32>() / 60.0;
             assert!((1.0..8.0).contains(&mean), "in second {second}: {mean} of 9");
         }
+    }
+
+    #[test]
+    fn a_calmed_view_glimmers_and_stands_still() {
+        let mut view = View { cabinet: vec2(0.001, 0.0), slaps: [1.0; 3], ..in_play() };
+        view.elements = vec![ElementView { flash: 1.0, ..LIT }];
+        let calmed = calmed(&view);
+        assert!(calmed.reduced_flashing && calmed.cabinet == Vec2::ZERO && calmed.elements[0].lit);
+        assert!(calmed.elements[0].flash < 0.5 && calmed.slaps.iter().all(|slap| *slap < 0.5));
     }
 
     #[test]

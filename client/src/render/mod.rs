@@ -199,10 +199,12 @@ fn paint_frame(
         return Err(Abandoned::OtherTable { view: counts.0, table: counts.1 });
     }
     let Art { comfort, layout: resting, panels, room, board, sprites, fonts, batch, minis } = art;
-    let layout = &match (view.reduced_flashing, view.tilt) {
-        (true, _) => resting.scrolled(bottom),
-        (false, None) => resting.scrolled(bottom).shaken(view.cabinet),
-        (false, Some(seconds)) => resting.scrolled(bottom).shaken(view.cabinet).jolted(seconds),
+    let calmed = view.reduced_flashing.then(|| lights::calmed(view));
+    let view = calmed.as_ref().unwrap_or(view);
+    let shaken = resting.scrolled(bottom).shaken(view.cabinet);
+    let layout = &match view.tilt.filter(|_| !view.reduced_flashing) {
+        Some(seconds) => shaken.jolted(seconds),
+        None => shaken,
     };
     let corner = layout.cabinet.point();
 
@@ -246,7 +248,8 @@ fn paint_frame(
     let mut writer = Writer { panels, fonts, batch };
     let slots = writer.panels(view, vec2(table.size.0 as f32, table.size.1 as f32));
     writer.banner(&view.hud, sprites.plate, sprites::banner_area(resting, panels));
-    writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(resting, panels), view.clock);
+    let blinking = if view.reduced_flashing { 0.0 } else { view.clock };
+    writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(resting, panels), blinking);
     batch.flush();
 
     // 6. The boards that are small.
@@ -254,8 +257,8 @@ fn paint_frame(
         let current = minis.take().filter(|minis| minis.fits(slot.board));
         let minis =
             minis.insert(current.unwrap_or_else(|| Minis::paint(slot.board, board, comfort.marked_lights, table)));
-        let shown = View { reduced_flashing: view.reduced_flashing, ..other.view.clone() };
-        minis.draw(slot.board, table, &shown, blending);
+        let calmed = view.reduced_flashing.then(|| lights::calmed(&other.view));
+        minis.draw(slot.board, table, calmed.as_ref().unwrap_or(&other.view), blending);
     }
     Ok(())
 }
