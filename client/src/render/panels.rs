@@ -66,8 +66,9 @@ impl Panels {
         let scores_top = main.y + title_height + if title_height > 0.0 { padding } else { 0.0 };
         let scores_height = (message.y - padding - scores_top).max(0.0);
         let scores = Rect::new(main.x, scores_top, main.w, scores_height);
-        // Eleven glyphs are 999,999,999; and the display should hold two such lines with their names.
-        let score = fitting(main.w - 4.0 * padding, 11).min((scores_height / 28.0) as u16).min(16).max(small);
+        // Eleven glyphs are 999,999,999, and the display should hold two such lines with their names; but it is no smaller
+        // than the score of who waits: a line that is too long shrinks.
+        let score = fitting(main.w - 4.0 * padding, 11).min((scores_height / 28.0) as u16).min(16).max(medium);
 
         // Side: counters, then onlookers, and keys at the bottom.
         let counters = counters(side, row(small), row(medium), padding);
