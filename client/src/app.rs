@@ -5,6 +5,7 @@ mod menus;
 use std::sync::Arc;
 use std::time::Instant;
 
+use macroquad::math::vec2;
 use macroquad::texture::get_screen_data;
 use macroquad::window::{screen_dpi_scale, screen_height, screen_width, set_fullscreen};
 use shared::protocol::Hello;
@@ -19,6 +20,8 @@ use crate::input::{Keyboard, Wish};
 use crate::limiter::Limiter;
 use crate::menu::{Menu, Page, Shelved};
 use crate::net::{Connection, Incoming};
+use crate::pictures::{self, Pictures};
+use crate::pointer::Surface;
 use crate::render::Renderer;
 use crate::report::Report;
 use crate::screens::{self, Words};
@@ -77,6 +80,8 @@ pub(crate) struct App {
     /// The last frame: it stays on the screen when the connection is lost.
     view: View,
     limiter: Limiter,
+    pictures: Pictures,
+    wants_picture: bool,
     /// The window's size in the last frame.
     last_size: (f32, f32),
     shows_statistics: bool,
@@ -103,6 +108,8 @@ impl App {
             audio: Audio::start(),
             view: View::default(),
             limiter: Limiter::new(options.fps),
+            pictures: Pictures::new(options.settings.as_deref()),
+            wants_picture: false,
             last_size: (0.0, 0.0),
             shows_statistics: false,
             shows_overlay: options.overlay,
@@ -157,6 +164,7 @@ impl App {
         if self.options.screenshot.is_none() {
             self.store.save();
         }
+        self.pictures.finish();
         self.report
     }
 
@@ -259,7 +267,8 @@ impl App {
         if self.menu.is_open() {
             self.keyboard.poll_menu(&mut events, |wish| wishes.push(wish));
         } else {
-            self.keyboard.poll(&mut self.controls, |wish| wishes.push(wish));
+            let surface = self.surface();
+            self.keyboard.poll(&mut self.controls, surface, |wish| wishes.push(wish));
         }
         for wish in wishes {
             match (wish, &mut self.state) {
@@ -273,6 +282,7 @@ impl App {
                 }
                 (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
                 (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
+                (Wish::Picture, _) => self.wants_picture = true,
                 (Wish::Vote(action), State::Live(_, session)) => session.vote(action),
                 (Wish::Look(further), State::Live(_, session)) => session.look(further),
                 (Wish::Go | Wish::Pause | Wish::Vote(_) | Wish::Look(_), _) => {}
@@ -290,6 +300,15 @@ impl App {
         let Some(moment) = session.moment(board) else { return };
         let is_attract = is_own && session.place().is_none();
         self.audio.hear(&Scene { table: session.table(), board, moment: &moment, events: &events, is_attract });
+    }
+
+    /// What is under the player's pointers, while there is a game for them.
+    fn surface(&self) -> Option<Surface> {
+        let State::Live(_, session) = &self.state else { return None };
+        session.place().filter(|_| !session.is_paused())?;
+        let moment = session.moment(session.main_board());
+        let size = vec2(screen_width(), screen_height()) * screen_dpi_scale();
+        Some(Surface { size, ball_waits: moment.is_some_and(|moment| screens::is_on_plunger(moment.game)) })
     }
 
     /// 4. Puts the frame's view together.
@@ -324,6 +343,9 @@ impl App {
         if self.shows_statistics {
             self.view.hud.message = self.statistics();
         }
+        if let Some(word) = self.pictures.word(now) {
+            self.view.hud.message = word.to_owned();
+        }
     }
 
     /// The size of a window that does not fill the screen is remembered.
@@ -349,16 +371,13 @@ impl App {
         }
     }
 
-    /// Saves the picture that was asked for, if it is time; `true` if it was saved.
-    fn take_picture(&self, now: f64) -> bool {
-        let Some(screenshot) = self.options.screenshot.as_ref().filter(|screenshot| now >= screenshot.after) else {
-            return false;
-        };
-        let mut picture = get_screen_data();
-        // The window's alpha means nothing, but a viewer would take it for transparency.
-        picture.bytes.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = u8::MAX);
-        picture.export_png(&screenshot.file.to_string_lossy());
-        true
+    /// Takes the pictures that were asked for; `true` if it is the one to quit after.
+    fn take_picture(&mut self, now: f64) -> bool {
+        if std::mem::take(&mut self.wants_picture) {
+            self.pictures.take(now);
+        }
+        let last = self.options.screenshot.as_ref().filter(|screenshot| now >= screenshot.after);
+        last.inspect(|screenshot| pictures::save(get_screen_data(), &screenshot.file)).is_some()
     }
 }
 

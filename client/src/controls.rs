@@ -1,4 +1,4 @@
-//! What a player's hands do, as inputs with ticks. Knows keys, but neither window nor clock.
+//! What a player's hands do, as inputs with ticks. Knows keys and pointers, but neither window nor clock.
 //!
 //! Every change of a button gets a tick of its own: a key that goes down and up within one frame is a tap of
 //! [`TAP_TICKS`], not nothing. A nudge is no button: each press of its key is one slap, however long the key is held.
@@ -7,6 +7,7 @@ use macroquad::input::KeyCode;
 use shared::game::{Action, Nudge};
 use shared::protocol::{NUDGE_SECONDS, TAP_TICKS};
 
+use crate::pointer::Pointer;
 use crate::settings::{Bindings, Control};
 
 /// Seconds that the plunger's key is held for a full pull.
@@ -18,6 +19,15 @@ const PULL_EVERY: f64 = 0.02;
 /// Seconds between two nudges: somewhat more than the server asks for, since the ticks of a prediction are not spaced as
 /// evenly as the frames.
 const NUDGE_EVERY: f64 = 1.2 * NUDGE_SECONDS;
+
+/// What a hand presses.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// A key.
+    Key(KeyCode),
+    /// A finger, or a button of the mouse.
+    Pointer(Pointer),
+}
 
 /// A button: something that is held.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -46,11 +56,11 @@ fn kind_of(control: Control) -> Kind {
     }
 }
 
-/// A button and the keys that work it.
+/// A button and what works it.
 #[derive(Debug, Clone, Default)]
 struct Button {
-    /// Keys that are down.
-    held: Vec<KeyCode>,
+    /// What is down.
+    held: Vec<Source>,
     /// What the game was told.
     told: bool,
     /// The tick after which the next change may come.
@@ -64,14 +74,16 @@ pub(crate) struct Controls {
     buttons: [Button; PARTS.len()],
     /// Changes since the last frame, in order.
     changes: Vec<(Part, bool)>,
-    /// Keys of nudges that are down.
-    nudge_keys: Vec<KeyCode>,
+    /// What is down for nudges.
+    nudge_keys: Vec<Source>,
     /// Nudges since the last frame, in order.
     nudges: Vec<Nudge>,
     /// When the last one was given, seconds.
     nudged_at: Option<f64>,
     /// Since when the plunger is held, and the share that was told last and when.
     pull: Option<Pull>,
+    /// How far the plunger is drawn by a pointer, 0 to 1; otherwise it is pulled farther while its key is held.
+    drawn: Option<f64>,
     /// It was the player's turn in the last frame.
     active: bool,
 }
@@ -97,31 +109,60 @@ impl Controls {
 
     /// A key went down. The keyboard's own repeats are no news.
     pub(crate) fn key_down(&mut self, key: KeyCode) {
-        match self.bindings.control_of(key).map(kind_of) {
-            Some(Kind::Nudge(nudge)) if !self.nudge_keys.contains(&key) => {
-                self.nudge_keys.push(key);
-                self.nudges.push(nudge);
-            }
-            Some(Kind::Button(part)) => {
-                let held = &mut self.buttons[part as usize].held;
-                if held.is_empty() {
-                    self.changes.push((part, true));
-                }
-                if !held.contains(&key) {
-                    held.push(key);
-                }
-            }
-            _ => {}
+        if let Some(control) = self.bindings.control_of(key) {
+            self.press(control, Source::Key(key));
         }
     }
 
-    /// A key went up. A button with two keys on it is released with the second.
+    /// A key went up.
     pub(crate) fn key_up(&mut self, key: KeyCode) {
-        self.nudge_keys.retain(|held| *held != key);
+        self.release(Source::Key(key));
+    }
+
+    /// A control is pressed.
+    pub(crate) fn press(&mut self, control: Control, source: Source) {
+        match kind_of(control) {
+            Kind::Nudge(nudge) if !self.nudge_keys.contains(&source) => {
+                self.nudge_keys.push(source);
+                self.nudges.push(nudge);
+            }
+            Kind::Nudge(_) => {}
+            Kind::Button(part) => {
+                let held = &mut self.buttons[part as usize].held;
+                if held.is_empty() {
+                    self.changes.push((part, true));
+                    if part == Part::Plunger {
+                        self.drawn = None;
+                    }
+                }
+                if !held.contains(&source) {
+                    held.push(source);
+                }
+            }
+        }
+    }
+
+    /// The plunger is drawn by hand, by a share of its way.
+    pub(crate) fn draw_plunger(&mut self, share: f64, source: Source) {
+        self.press(Control::Plunger, source);
+        self.drawn = Some(share);
+    }
+
+    /// Whether a source presses a control.
+    pub(crate) fn holds(&self, control: Control, source: Source) -> bool {
+        match kind_of(control) {
+            Kind::Nudge(_) => self.nudge_keys.contains(&source),
+            Kind::Button(part) => self.buttons[part as usize].held.contains(&source),
+        }
+    }
+
+    /// What was pressed is let go. A button that is pressed twice is released with the second.
+    pub(crate) fn release(&mut self, source: Source) {
+        self.nudge_keys.retain(|held| *held != source);
         for part in PARTS {
             let held = &mut self.buttons[part as usize].held;
-            if held.contains(&key) {
-                held.retain(|held| *held != key);
+            if held.contains(&source) {
+                held.retain(|held| *held != source);
                 if held.is_empty() {
                     self.changes.push((part, false));
                 }
@@ -129,7 +170,7 @@ impl Controls {
         }
     }
 
-    /// The keyboard is somebody else's now: everything is let go.
+    /// Keyboard and pointers are somebody else's now: everything is let go.
     pub(crate) fn release_all(&mut self) {
         self.nudge_keys.clear();
         for part in PARTS {
@@ -190,7 +231,7 @@ impl Controls {
                 Part::Left => act(at, Action::Flipper { right: false, pressed }),
                 Part::Right => act(at, Action::Flipper { right: true, pressed }),
                 Part::Plunger if pressed => {
-                    let pull = Pull { since: now, told: share(0.0), told_at: now };
+                    let pull = Pull { since: now, told: share(self.drawn.unwrap_or(0.0)), told_at: now };
                     self.pull = Some(pull);
                     act(at, Action::Pull(pull.told));
                 }
@@ -201,7 +242,7 @@ impl Controls {
             }
         }
         if let Some(pull) = &mut self.pull {
-            let share = share(now - pull.since);
+            let share = share(self.drawn.unwrap_or((now - pull.since) / PULL_SECONDS));
             if share != pull.told && now - pull.told_at >= PULL_EVERY {
                 (pull.told, pull.told_at) = (share, now);
                 let after = &mut self.buttons[Part::Plunger as usize].after;
@@ -213,9 +254,9 @@ impl Controls {
     }
 }
 
-/// How far the plunger is pulled after that many seconds, in 65535ths.
-fn share(seconds: f64) -> u16 {
-    let share = LEAST_PULL + (1.0 - LEAST_PULL) * (seconds / PULL_SECONDS).clamp(0.0, 1.0);
+/// How far the plunger is pulled by a part of a hand's way, in 65535ths.
+fn share(part: f64) -> u16 {
+    let share = LEAST_PULL + (1.0 - LEAST_PULL) * part.clamp(0.0, 1.0);
     (share * f64::from(u16::MAX)) as u16
 }
 

@@ -1,8 +1,8 @@
 //! Starball: the game's window. Reads arguments, opens the window and runs [`app::App`] in it.
 //!
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
-//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls` and `input` (hands), `settings` (what they have chosen),
-//! `menu`, `screens`, `effects`,
+//! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls`, `pointer` and `input` (hands), `settings`
+//! (what they have chosen), `pictures` (what they keep), `menu`, `screens`, `effects`,
 //! `overlay` and `assemble` (what goes into a `view`), `render` (draws it), `audio` (what is heard).
 
 mod app;
@@ -20,6 +20,8 @@ mod menu;
 mod moment;
 mod net;
 mod overlay;
+mod pictures;
+mod pointer;
 mod prediction;
 mod render;
 mod report;

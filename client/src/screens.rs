@@ -284,7 +284,7 @@ pub(crate) fn has_tilted(game: &Game) -> bool {
 }
 
 /// Whether a ball lies where the plunger can launch it.
-fn is_on_plunger(game: &Game) -> bool {
+pub(crate) fn is_on_plunger(game: &Game) -> bool {
     let scene = &game.table().scene;
     let now = Instant::start_of(game.tick());
     game.world().state().balls.iter().any(|ball| {
