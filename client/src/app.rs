@@ -1,5 +1,6 @@
 //! The window's program: [`App::frame`] is the main flow, once a frame.
 
+mod film;
 mod menus;
 
 use std::sync::Arc;
@@ -14,6 +15,7 @@ use shared::table::Table;
 use crate::arguments::{Goal, Options};
 use crate::assemble;
 use crate::audio::{Audio, Scene};
+use crate::cinema::Cinema;
 use crate::controls::Controls;
 use crate::embedded::Embedded;
 use crate::input::{Keyboard, Wish};
@@ -64,6 +66,8 @@ pub(crate) struct App {
     epoch: Instant,
     state: State,
     embedded: Option<Embedded>,
+    /// A film that is watched instead of the game.
+    cinema: Option<Cinema>,
     keyboard: Keyboard,
     controls: Controls,
     menu: Menu,
@@ -96,6 +100,7 @@ impl App {
             epoch: Instant::now(),
             state: State::Lost { was_live: false, reason: String::new() },
             embedded: None,
+            cinema: None,
             keyboard: Keyboard::new(),
             controls: Controls::new(store.settings.keys.clone()),
             menu: Menu::default(),
@@ -118,7 +123,10 @@ impl App {
             store,
             options,
         };
-        app.connect();
+        match &app.options.goal {
+            Goal::Replay(film) => app.watch((**film).clone()),
+            _ => app.connect(),
+        }
         app
     }
 
@@ -134,12 +142,14 @@ impl App {
             session.advance(now, &mut self.controls);
             send(connection, session);
         }
+        self.advance_film(now);
         self.settle(now);
         self.let_hear();
         // 4. That as plain data.
         self.assemble(now);
         // 5. The picture.
-        let menu = self.menu.view(&self.facts());
+        // A film has the screen for itself.
+        let menu = self.menu.view(&self.facts()).filter(|_| self.cinema.is_none());
         self.renderer.draw(&self.view, menu.as_ref());
         self.report.drawn(now);
         self.note_window();
@@ -176,6 +186,7 @@ impl App {
     fn connect(&mut self) {
         let address = match &self.goal {
             Goal::Server { address, .. } => address.clone(),
+            Goal::Replay(_) => return,
             Goal::Own(table) | Goal::Hosted(table, _) => {
                 let mode = if let Goal::Hosted(_, mode) = self.goal { Some(mode) } else { None };
                 let running = self.embedded.take().filter(Embedded::is_alive);
@@ -194,6 +205,7 @@ impl App {
                 match self.goal {
                     Goal::Own(_) => self.menu.show_title(),
                     Goal::Hosted(..) | Goal::Server { .. } => self.menu.show(Page::Connecting),
+                    Goal::Replay(_) => {}
                 }
             }
             Err(error) => self.lose(error.headline(), &error),
@@ -211,7 +223,7 @@ impl App {
         tracing::warn!("{error}");
         let reason = match &self.goal {
             Goal::Server { address, .. } => format!("{headline}: {address}"),
-            Goal::Own(_) | Goal::Hosted(..) => headline.to_owned(),
+            Goal::Own(_) | Goal::Hosted(..) | Goal::Replay(_) => headline.to_owned(),
         };
         self.state = State::Lost { was_live, reason };
         self.controls.release_all();
@@ -252,7 +264,7 @@ impl App {
             let mut session = Box::new(session);
             match self.goal {
                 Goal::Own(_) if self.wants_place.is_some() => session.play(),
-                Goal::Own(_) => {}
+                Goal::Own(_) | Goal::Replay(_) => {}
                 Goal::Hosted(..) => self.menu.show(Page::Opened),
                 Goal::Server { .. } => self.menu.close(),
             }
@@ -262,6 +274,9 @@ impl App {
 
     /// 2. Handles input; `false` if the person wants to quit.
     fn poll_input(&mut self) -> bool {
+        if self.cinema.is_some() {
+            return self.poll_film();
+        }
         let mut wishes = Vec::new();
         let mut events = Vec::new();
         if self.menu.is_open() {
@@ -275,14 +290,8 @@ impl App {
                 (Wish::Go, State::Live(_, session)) => session.play(),
                 (Wish::Back, _) => self.open_pause(),
                 (Wish::Pause, State::Live(_, session)) if session.can_pause() => self.open_pause(),
-                (Wish::FullScreen, _) => {
-                    let is_full = &mut self.store.settings.full_screen;
-                    *is_full = !*is_full;
-                    set_fullscreen(*is_full);
-                }
-                (Wish::Statistics, _) => self.shows_statistics = !self.shows_statistics,
-                (Wish::Overlay, _) => self.shows_overlay = !self.shows_overlay,
-                (Wish::Picture, _) => self.wants_picture = true,
+                (Wish::Film, _) => self.watch_last(),
+                (Wish::FullScreen | Wish::Statistics | Wish::Overlay | Wish::Picture, _) => self.heed_everywhere(wish),
                 (Wish::Vote(action), State::Live(_, session)) => session.vote(action),
                 (Wish::Look(further), State::Live(_, session)) => session.look(further),
                 (Wish::Go | Wish::Pause | Wish::Vote(_) | Wish::Look(_), _) => {}
@@ -294,8 +303,14 @@ impl App {
     /// 3. What happened on the board that is seen large, to be heard.
     fn let_hear(&mut self) {
         self.audio.set_volume(self.options.volume.unwrap_or(self.store.settings.volume));
-        let State::Live(_, session) = &mut self.state else { return };
-        let events = session.take_fresh();
+        let game = match &mut self.state {
+            State::Live(_, session) => Some((session.take_fresh(), session)),
+            _ => None,
+        };
+        if let Some(cinema) = &mut self.cinema {
+            return cinema.let_hear(&mut self.audio);
+        }
+        let Some((events, session)) = game else { return };
         let (board, is_own) = (session.main_board(), matches!(self.goal, Goal::Own(_)));
         let Some(moment) = session.moment(board) else { return };
         let is_attract = is_own && session.place().is_none();
@@ -311,8 +326,40 @@ impl App {
         Some(Surface { size, ball_waits: moment.is_some_and(|moment| screens::is_on_plunger(moment.game)) })
     }
 
+    /// What can be wished for whatever is on the screen.
+    fn heed_everywhere(&mut self, wish: Wish) {
+        match wish {
+            Wish::FullScreen => {
+                let is_full = &mut self.store.settings.full_screen;
+                *is_full = !*is_full;
+                set_fullscreen(*is_full);
+            }
+            Wish::Statistics => self.shows_statistics = !self.shows_statistics,
+            Wish::Overlay => self.shows_overlay = !self.shows_overlay,
+            Wish::Picture => self.wants_picture = true,
+            _ => {}
+        }
+    }
+
     /// 4. Puts the frame's view together.
     fn assemble(&mut self, now: f64) {
+        if let Some(cinema) = &mut self.cinema {
+            self.view = cinema.view(self.shows_overlay);
+        } else {
+            self.assemble_game(now);
+        }
+        let settings = &self.store.settings;
+        (self.view.reduced_flashing, self.view.marked_lights) = (settings.reduced_flashing, settings.marked_lights);
+        self.view.text_scale = settings.text_scale;
+        if self.shows_statistics {
+            self.view.hud.message = self.statistics();
+        }
+        if let Some(word) = self.pictures.word(now) {
+            self.view.hud.message = word.to_owned();
+        }
+    }
+
+    fn assemble_game(&mut self, now: f64) {
         self.view = match &mut self.state {
             State::Live(_, session) => {
                 let words = screens::live(session, &self.store.settings.keys, now);
@@ -336,15 +383,6 @@ impl App {
         if !self.shows_overlay {
             // Of a game that was lost.
             self.view.overlay = None;
-        }
-        let settings = &self.store.settings;
-        (self.view.reduced_flashing, self.view.marked_lights) = (settings.reduced_flashing, settings.marked_lights);
-        self.view.text_scale = settings.text_scale;
-        if self.shows_statistics {
-            self.view.hud.message = self.statistics();
-        }
-        if let Some(word) = self.pictures.word(now) {
-            self.view.hud.message = word.to_owned();
         }
     }
 

@@ -9,6 +9,7 @@ use shared::protocol::{Form, Mode, RATES, Role, check_name};
 use shared::table::Table;
 use starball_server::load_table;
 
+use crate::film::{self, Film};
 use crate::settings;
 use crate::streams::StreamChoice;
 
@@ -53,6 +54,18 @@ enum Command {
     Play(Connect),
     /// Watches at somebody's server.
     Watch(Connect),
+    /// Watches a replay, as a server records one.
+    Replay(ReplayFile),
+}
+
+#[derive(Debug, clap::Args)]
+struct ReplayFile {
+    /// The replay.
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// The table that it was recorded on, if that is none of those that are shipped.
+    #[arg(long, value_name = "NAME|FILE")]
+    table: Option<String>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -76,6 +89,8 @@ pub(crate) enum Goal {
     Own(Arc<Table>),
     /// The same, open for others, in a mode; from the menu only.
     Hosted(Arc<Table>, Mode),
+    /// A game that was recorded.
+    Replay(Box<Film>),
     /// Somebody's server: to play there, or to watch.
     Server {
         /// Where it listens.
@@ -136,6 +151,10 @@ impl Arguments {
     pub(crate) fn check(self) -> Result<Options, String> {
         let goal = match (self.command, self.table) {
             (None, table) => Goal::Own(load_table(table.as_deref().unwrap_or("classic"))?),
+            (Some(Command::Replay(replay)), table) => {
+                let table = replay.table.or(table);
+                Goal::Replay(Box::new(film::read(&replay.file, table.as_deref())?))
+            }
             (Some(_), Some(_)) => {
                 return Err(
                     "--table is for a table of your own: the server that you connect to has chosen its".to_owned()

@@ -1,11 +1,13 @@
 //! Makes the [`View`] of a frame out of what is to be seen of a game, who is there, and what the screen says.
 
-use shared::game::{Nudge, Phase};
+use shared::game::{Nudge, Phase, Seat};
 use shared::physics::TargetState;
 use shared::physics::hinge::{HingeSpec, HingeState};
 use shared::protocol::Mode;
 use shared::table::{CrowdAction, Table};
 
+use crate::effects::Effects;
+use crate::film::Projector;
 use crate::moment::{Moment, Motion};
 use crate::overlay::overlay_of;
 use crate::screens::{self, Words};
@@ -23,7 +25,7 @@ const GATE_FALL: f64 = 0.35;
 /// The view of a room; `with_overlay`: and of what the physics of its main board sees.
 pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overlay: bool) -> View {
     let main = session.main_board();
-    let mut view = board_view(session, main, words, now);
+    let mut view = room_board(session, main, words, now);
     let Some(moment) = session.moment(main) else { return view };
     fill_hud(&mut view.hud, session, &moment);
     view.light_show = screens::is_attract(session) && (view.hud.ball == 0 || !view.hud.banner.is_empty());
@@ -39,7 +41,7 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
 
 /// A board that is drawn small, and who plays it; `None` if nobody does.
 fn other_board(session: &mut Session, board: usize, now: f64) -> Option<OtherBoard> {
-    let mut view = board_view(session, board, Words::default(), now);
+    let mut view = room_board(session, board, Words::default(), now);
     // There they would be larger than what made them.
     view.popups.clear();
     let place = u8::try_from(board).ok();
@@ -52,17 +54,43 @@ fn other_board(session: &mut Session, board: usize, now: f64) -> Option<OtherBoa
     Some(OtherBoard { view, name: one.name.clone(), score: one.points, state })
 }
 
+/// What is to be seen on a board of a room.
+fn room_board(session: &mut Session, board: usize, words: Words, now: f64) -> View {
+    // What is to be seen borrows the session; what its events leave lies beside it meanwhile.
+    let mut effects = session.effects_mut(board).map(std::mem::take).unwrap_or_default();
+    let view = match session.moment(board) {
+        Some(moment) => board_view(&moment, &mut effects, words, now),
+        None => still_view(session.table(), words, now),
+    };
+    if let Some(place) = session.effects_mut(board) {
+        *place = effects;
+    }
+    view
+}
+
+/// What is to be seen of a film.
+pub(crate) fn film_view(projector: &Projector, effects: &mut Effects, words: Words, with_overlay: bool) -> View {
+    let moment = projector.moment();
+    let mut view = board_view(&moment, effects, words, projector.at_seconds());
+    view.hud.title = "REPLAY".to_owned();
+    let seats = moment.game.seats().iter().enumerate().filter(|(_, seat)| seat.playing);
+    let seat_view = |(place, seat): (usize, &Seat)| SeatView {
+        name: projector.film().name_of(place),
+        score: seat.score.points,
+        active: moment.game.phase().has_turn(place as u8),
+        ..SeatView::default()
+    };
+    view.hud.seats = seats.map(seat_view).collect();
+    fill_counters(&mut view.hud, &moment);
+    view.overlay = with_overlay.then(|| overlay_of(&moment));
+    view
+}
+
 /// What is to be seen on a board.
-fn board_view(session: &mut Session, board: usize, words: Words, now: f64) -> View {
-    let balls = session.moment(board).map(|moment| moment.balls).unwrap_or_default();
-    let radius = session.table().file.ball.radius as f32;
-    let fading = session.effects_mut(board).map(|effects| {
-        effects.see(&balls, radius, now);
-        (effects.popups(now), effects.bursts(now))
-    });
-    let table = session.table();
+fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Words, now: f64) -> View {
+    let table = moment.game.table();
     let mut view = still_view(table, words, now);
-    let (Some(moment), Some(effects)) = (session.moment(board), session.effects(board)) else { return view };
+    effects.see(&moment.balls, table.file.ball.radius as f32, now);
     let ball_view = |ball: &Motion| BallView {
         position: ball.position.as_vec2(),
         velocity: ball.velocity.as_vec2(),
@@ -70,11 +98,11 @@ fn board_view(session: &mut Session, board: usize, words: Words, now: f64) -> Vi
         held: ball.is_held,
         orientation: effects.orientation_of(ball.id),
     };
-    view.balls = balls.iter().map(ball_view).collect();
+    view.balls = moment.balls.iter().map(ball_view).collect();
     let flippers = table.scene.flippers.iter().zip(&moment.flippers);
     view.flippers = flippers.map(|(spec, swing)| (spec.rest - swing) as f32).collect();
     view.plungers = moment.plungers.iter().map(|&pull| pull as f32).collect();
-    (view.popups, view.bursts) = fading.unwrap_or_default();
+    (view.popups, view.bursts) = (effects.popups(now), effects.bursts(now));
     view.cheer = effects.cheer(now);
     // Whoever came later has not seen when.
     view.tilt = screens::has_tilted(moment.game).then(|| effects.tilt(now).unwrap_or(f32::INFINITY));
@@ -165,11 +193,7 @@ fn fill_hud(hud: &mut Hud, session: &Session, moment: &Moment<'_>) {
     hud.queue.clone_from(&roster.line);
     hud.waiting = roster.waiting.max(roster.line.len() as u32);
     hud.seats = session.contestants().iter().map(seat_view).collect();
-    if let Phase::Play { seat, .. } = moment.game.phase()
-        && let Some(seat) = moment.game.seats().get(usize::from(seat))
-    {
-        (hud.bonus, hud.multiplier) = (seat.score.bonus, seat.score.multiplier);
-    }
+    fill_counters(hud, moment);
     if session.mode() == Mode::Crowd
         && let Some(crowd) = moment.game.crowd()
     {
@@ -179,6 +203,14 @@ fn fill_hud(hud: &mut Hud, session: &Session, moment: &Moment<'_>) {
             let seconds = f64::from(announced.ticks) * moment.game.table().scene.tick_seconds;
             Some([format!("IN {:.0} S:", seconds.ceil()), action.name.clone()])
         });
+    }
+}
+
+fn fill_counters(hud: &mut Hud, moment: &Moment<'_>) {
+    if let Phase::Play { seat, .. } = moment.game.phase()
+        && let Some(seat) = moment.game.seats().get(usize::from(seat))
+    {
+        (hud.bonus, hud.multiplier) = (seat.score.bonus, seat.score.multiplier);
     }
 }
 

@@ -18,6 +18,8 @@ pub(crate) enum Wish {
     Back,
     /// P: let the game stand still.
     Pause,
+    /// R: watch the last game again.
+    Film,
     /// F11.
     FullScreen,
     /// F3.
@@ -60,6 +62,11 @@ impl Keyboard {
         Self { subscriber: register_input_subscriber(), pointers: Pointers::default() }
     }
 
+    /// Gives what happened since the last call to somebody else.
+    pub(crate) fn poll_with(&self, handler: &mut impl EventHandler) {
+        repeat_all_miniquad_input(handler, self.subscriber);
+    }
+
     /// Gives what happened since the last call to the controls and to `wish`. Without a surface, pointers work nothing.
     pub(crate) fn poll(&mut self, controls: &mut Controls, surface: Option<Surface>, wish: impl FnMut(Wish)) {
         let Self { subscriber, pointers } = self;
@@ -84,7 +91,7 @@ impl Keyboard {
 }
 
 /// What a function key is for, everywhere.
-fn function_key(key: KeyCode) -> Option<Wish> {
+pub(crate) fn function_key(key: KeyCode) -> Option<Wish> {
     Some(match key {
         KeyCode::F11 => Wish::FullScreen,
         KeyCode::F3 => Wish::Statistics,
@@ -132,6 +139,7 @@ impl<W: FnMut(Wish)> EventHandler for Sorter<'_, W> {
             KeyCode::Enter | KeyCode::KpEnter => (self.wish)(Wish::Go),
             KeyCode::Escape => (self.wish)(Wish::Back),
             KeyCode::P | KeyCode::Pause => (self.wish)(Wish::Pause),
+            KeyCode::R => (self.wish)(Wish::Film),
             KeyCode::Tab => (self.wish)(Wish::Look(1)),
             _ => {
                 let vote = VOTES.iter().zip(0..).find(|(keys, _)| keys.contains(&key));

@@ -3,17 +3,19 @@
 //! `app` is the main flow. Below it: `net` (the connection), `session` (one connection's room), `streams` (what is asked for),
 //! `timing`, `snapshots` and `prediction` (what is to be seen now), `controls`, `pointer` and `input` (hands), `settings`
 //! (what they have chosen), `pictures` (what they keep), `menu`, `screens`, `effects`,
-//! `overlay` and `assemble` (what goes into a `view`), `render` (draws it), `audio` (what is heard).
+//! `overlay` and `assemble` (what goes into a `view`), `render` (draws it), `audio` (what is heard); `film` and `cinema` (games once more).
 
 mod app;
 mod arguments;
 mod assemble;
 mod audio;
 mod budget;
+mod cinema;
 mod controls;
 mod display;
 mod effects;
 mod embedded;
+mod film;
 mod input;
 mod limiter;
 mod menu;
@@ -92,6 +94,7 @@ fn in_window(options: Options) -> Result<(), String> {
     options.screenshot.as_ref().map_or(Ok(()), Screenshot::reserve)?;
     let backdrop = match &options.goal {
         Goal::Own(table) | Goal::Hosted(table, _) => Arc::clone(table),
+        Goal::Replay(film) => Arc::clone(film.table()),
         // Until the server has sent its own.
         Goal::Server { .. } => first_shipped()?,
     };

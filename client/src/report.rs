@@ -73,7 +73,7 @@ impl fmt::Display for Report {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::session::Behind;
+    use crate::session::counts::Behind;
 
     #[test]
     fn counts_frames() {

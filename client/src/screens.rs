@@ -68,6 +68,9 @@ pub(crate) fn live(session: &Session, bindings: &Bindings, now: f64) -> Words {
     if session.can_pause() && session.is_playing() {
         keys.insert(keys.len() - 1, ("P".to_owned(), "PAUSE".to_owned()));
     }
+    if session.film().is_some() && (session.place().is_none() || !session.is_playing()) {
+        keys.insert(keys.len() - 1, ("R".to_owned(), "LAST GAME AGAIN".to_owned()));
+    }
     if session.place().is_none() {
         let more = more_keys(session);
         // What can be done about the game comes first, the way out last.

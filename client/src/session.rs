@@ -7,6 +7,7 @@
 mod advance;
 mod board;
 mod contest;
+pub(crate) mod counts;
 mod error;
 mod feed;
 mod ghosts;
@@ -24,6 +25,7 @@ use shared::table::Table;
 
 use crate::budget::Budget;
 use crate::effects::Effects;
+use crate::film::{Camera, Film};
 use crate::moment::Moment;
 use crate::prediction::Prediction;
 use crate::streams::StreamChoice;
@@ -31,51 +33,11 @@ use crate::timing::{Delay, Lead, ServerClock, TrueClock};
 use board::Board;
 use contest::Contest;
 pub(crate) use contest::{Contestant, Outcome};
+pub(crate) use counts::Counts;
 pub(crate) use error::SessionError;
 use feed::Feed;
 use pause::GameTime;
 use pings::Pings;
-
-/// What was counted, for the end.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Counts {
-    /// Frames of the stream that were received.
-    pub(crate) frames: u64,
-    /// Predictions that were right.
-    pub(crate) right: u64,
-    /// Predictions that were wrong.
-    pub(crate) wrong: u64,
-    /// Times that a copy was not what the server has.
-    pub(crate) mismatches: u64,
-    /// The last lead, ticks.
-    pub(crate) lead: f64,
-    /// How far behind the server the picture of a spectator was.
-    pub(crate) behind: Behind,
-}
-
-/// How far behind the server a picture was, seconds.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Behind {
-    /// Just now; `None` while a prediction is seen, or nobody knows.
-    pub(crate) now: Option<f64>,
-    /// Of all pictures.
-    pub(crate) sum: f64,
-    /// Pictures.
-    pub(crate) count: u64,
-    /// At the most.
-    pub(crate) most: f64,
-}
-
-impl Behind {
-    fn note(&mut self, seconds: Option<f64>) {
-        self.now = seconds;
-        if let Some(seconds) = seconds {
-            self.sum += seconds;
-            self.count += 1;
-            self.most = self.most.max(seconds);
-        }
-    }
-}
 
 /// One connection's room.
 #[derive(Debug)]
@@ -110,6 +72,7 @@ pub(crate) struct Session {
     heard_at: f64,
     began_at: Option<f64>,
     contest: Contest,
+    camera: Camera,
     /// What may still be computed for the next picture.
     budget: Budget,
     outbox: Vec<ClientMessage>,
@@ -159,6 +122,7 @@ impl Session {
             heard_at: 0.0,
             began_at: None,
             contest: Contest::default(),
+            camera: Camera::new(Arc::clone(&table)),
             budget: Budget::of_picture(tick_seconds, 1),
             outbox: Vec::new(),
             counts: Counts::default(),
@@ -174,11 +138,16 @@ impl Session {
         match message {
             ServerMessage::Full(full) => {
                 let heard = self.feed.hear_full(&full)?;
+                if heard == Heard::Anew {
+                    self.camera.begin(self.feed.games());
+                }
                 self.boards.resize_with(self.feed.games().len().max(1), || Board::new(&self.table));
                 self.note_frame(at, heard, None);
             }
             ServerMessage::Change(change) => {
                 let heard = self.feed.hear_change(&change)?;
+                // Nobody says what was pressed.
+                self.camera.cut();
                 for event in change.events.iter().filter(|_| heard == Heard::Further) {
                     if let Some(board) = self.boards.get_mut(usize::from(event.board)) {
                         board.snapshots.note(event.event);
@@ -187,7 +156,11 @@ impl Session {
                 self.note_frame(at, heard, Some(change.to));
             }
             ServerMessage::Inputs(inputs) => {
+                let known = self.feed.confirmed();
                 let heard = self.feed.hear_inputs(&inputs)?;
+                if heard == Heard::Further {
+                    self.camera.hear(known, &inputs);
+                }
                 self.note_frame(at, heard, Some(inputs.to));
             }
             ServerMessage::Roster(roster) => self.roster = roster,
@@ -373,6 +346,11 @@ impl Session {
         let main = self.main_board();
         let mut fresh = self.boards.iter_mut().map(|board| std::mem::take(&mut board.fresh));
         fresh.nth(main).unwrap_or_default()
+    }
+
+    /// The last game on the board that is seen large, if it could be filmed.
+    pub(crate) fn film(&self) -> Option<&Film> {
+        self.camera.film(self.main_board())
     }
 
     /// What was counted.

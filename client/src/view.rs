@@ -43,6 +43,8 @@ pub(crate) struct View {
     pub(crate) marked_lights: bool,
     /// How large text is, 1 to 1.6; below that 1.
     pub(crate) text_scale: f32,
+    /// How far the film has come, if this is one.
+    pub(crate) film: Option<FilmView>,
     /// Seconds since the client started: for blinking and attract-mode light shows, never for physics.
     pub(crate) clock: f32,
 }
@@ -126,6 +128,19 @@ pub(crate) struct Popup {
     pub(crate) text: String,
     /// 0 when new, 1 when gone.
     pub(crate) age: f32,
+}
+
+/// How far a film has come.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct FilmView {
+    /// Of the whole, 0 to 1.
+    pub(crate) share: f32,
+    /// The same in minutes and seconds.
+    pub(crate) time: String,
+    /// Whether it runs, and how fast; or what is wrong.
+    pub(crate) state: String,
+    /// It is not what was recorded.
+    pub(crate) is_wrong: bool,
 }
 
 /// What the display and the side panel say.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use macroquad::window::set_fullscreen;
-use shared::protocol::Role;
+use shared::protocol::{Form, Role};
 use shared::table::{SHIPPED, Shipped, Table};
 
 use super::{App, State, send};
@@ -21,7 +21,7 @@ impl App {
     /// What the pages speak of.
     pub(super) fn facts(&self) -> Facts {
         let room = match (&self.goal, &self.embedded) {
-            (Goal::Own(_), _) => Room::Own,
+            (Goal::Own(_) | Goal::Replay(_), _) => Room::Own,
             (Goal::Hosted(..), Some(embedded)) => Room::Hosted(embedded.address_for_others()),
             (Goal::Hosted(..), None) => Room::Hosted(String::new()),
             (Goal::Server { address, .. }, _) => Room::Guest(address.clone()),
@@ -36,8 +36,9 @@ impl App {
         };
         let keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
         let settings = self.store.settings.clone();
+        let has_film = self.last_film().is_some();
         let tables = self.tables.clone();
-        Facts { table: self.table.name.clone(), tables, room, has_place, keys, settings, was_live, reason }
+        Facts { table: self.table.name.clone(), tables, room, has_place, has_film, keys, settings, was_live, reason }
     }
 
     /// Gives the menu what happened; `false` if the person wants to quit.
@@ -115,6 +116,7 @@ impl App {
                 }
                 self.menu.close();
             }
+            MenuAct::Film => self.watch_last(),
             MenuAct::TryAgain => self.connect(),
             MenuAct::LeaveToTitle => self.show_title(),
             MenuAct::Set(setting, value) => self.set(setting, value),
@@ -227,7 +229,10 @@ impl App {
         match self.goal {
             Goal::Server { role, choice, .. } => (role, choice),
             // It is all on this machine: as smooth as can be.
-            Goal::Own(_) | Goal::Hosted(..) => (Role::Watch, StreamChoice { form: None, hz: Some(60) }),
+            // And what is pressed, so that a game can be watched again.
+            Goal::Own(_) | Goal::Hosted(..) | Goal::Replay(_) => {
+                (Role::Watch, StreamChoice { form: Some(Form::Inputs), hz: Some(60) })
+            }
         }
     }
 }

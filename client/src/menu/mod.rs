@@ -47,6 +47,8 @@ pub(crate) enum MenuInput {
 pub(crate) enum MenuAct {
     /// Play on the table that is seen.
     Play,
+    /// Watch the last game again.
+    Film,
     /// Play on that table.
     PlayOn(Shelved),
     /// Take that table for what comes.

@@ -57,6 +57,8 @@ pub(crate) struct Facts {
     pub(crate) room: Room,
     /// They have a seat, or a place in the line.
     pub(crate) has_place: bool,
+    /// Their last game can be watched again.
+    pub(crate) has_film: bool,
     /// What works what on the table.
     pub(crate) keys: Vec<(String, String)>,
     /// What was chosen.
@@ -119,15 +121,18 @@ impl Page {
 }
 
 fn title(facts: &Facts) -> Vec<Item> {
-    vec![
-        act("PLAY", MenuAct::Play).about(&format!("A game on {}: press ENTER", facts.table)),
+    let film =
+        facts.has_film.then(|| act("LAST GAME AGAIN", MenuAct::Film).about("Watch it as a film, in slow motion too"));
+    let play = act("PLAY", MenuAct::Play).about(&format!("A game on {}: press ENTER", facts.table));
+    let rest = [
         Item::new("AGAINST SPECTATORS", Control::Open(Page::Against)).about("Open a room for others, or join one"),
         Item::new("WATCH", Control::Open(Page::Join(Role::Watch))).about("See a game that is played elsewhere"),
         Item::new("TABLES", Control::Open(Page::Tables)).about("Choose another table to play on"),
         Item::new("SETTINGS", Control::Open(Page::Settings)).about("Keys, sound, screen, your name"),
         Item::new("HOW TO PLAY", Control::Open(Page::HowTo)).about("The keys, and what to shoot for"),
         act("QUIT", MenuAct::Quit).about("ENTER or ESC: leave Starball"),
-    ]
+    ];
+    std::iter::once(play).chain(film).chain(rest).collect()
 }
 
 fn against(facts: &Facts) -> Vec<Item> {

@@ -15,6 +15,7 @@ mod camera;
 mod canvas;
 mod crowd;
 mod dot_matrix;
+mod film;
 mod flashes;
 mod furniture;
 mod hud;
@@ -250,6 +251,7 @@ fn paint_frame(
     writer.banner(&view.hud, sprites.plate, sprites::banner_area(resting, panels));
     let blinking = if view.reduced_flashing { 0.0 } else { view.clock };
     writer.alarm(&view.hud, sprites.plate, sprites.dot, crowd::alarm_area(resting, panels), blinking);
+    writer.film(view.film.as_ref(), sprites.plate, sprites.dot, film::film_area(resting, panels));
     batch.flush();
 
     // 6. The boards that are small.

@@ -48,6 +48,9 @@ impl Session {
         // 3. Everything else, a little late.
         self.show_late(now, live, turn.map(|(board, _)| board));
         self.update_contest();
+        if self.feed.form() == Form::Inputs {
+            self.camera.look(self.feed.games(), &self.roster, self.place.is_some());
+        }
         // 4. What comes until the next picture counts as part of that.
         self.budget = Budget::of_picture(self.table.scene.tick_seconds, self.boards.len());
     }
@@ -55,12 +58,15 @@ impl Session {
     /// What was sent is kept, for boards that are seen late while the copies are as new as can be.
     pub(super) fn keep_what_was_sent(&mut self) {
         let every = (KEEP_EVERY / self.table.scene.tick_seconds).max(1.0) as u64;
-        let Self { feed, boards, budget, .. } = self;
+        let Self { feed, boards, budget, camera, .. } = self;
         loop {
             let (mut events, before) = (Vec::new(), feed.tick());
             // Also where the copies are there already: digests are compared.
             let next = if feed.form() == Form::Inputs { before + every } else { u64::MAX };
-            feed.advance(next, budget, |board, event| events.push((board, *event)));
+            feed.advance(next, budget, |board, event| {
+                camera.see(event);
+                events.push((board, *event));
+            });
             for (place, (board, game)) in (0..).zip(boards.iter_mut().zip(feed.games())) {
                 board.push(game, events.iter().filter(|(of, _)| *of == place).map(|(_, event)| *event));
             }
@@ -138,7 +144,7 @@ impl Session {
         let newest = if is_stepped { self.feed.confirmed() as f64 } else { f64::INFINITY };
         let target = (live - delay).min(newest);
         let loose: Vec<usize> = (0..self.boards.len()).map(|board| self.loose_balls(board)).collect();
-        let Self { feed, boards, table, budget, .. } = self;
+        let Self { feed, boards, table, budget, camera, .. } = self;
         for (place, (board, &loose)) in boards.iter_mut().zip(&loose).enumerate() {
             if Some(place) == predicted {
                 continue;
@@ -150,6 +156,7 @@ impl Session {
         }
         if is_stepped {
             feed.advance(target.max(0.0) as u64, budget, |place, event| {
+                camera.see(event);
                 let place = usize::from(place);
                 if let (Some(board), Some(&loose)) = (boards.get_mut(place), loose.get(place)) {
                     board.note(event, table, loose, now);

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use macroquad::input::KeyCode;
 use shared::game::Phase;
-use shared::protocol::{Hello, Role, Stream};
+use shared::protocol::{Hello, Role};
 use shared::table::Table;
 
 use super::*;
@@ -23,13 +23,17 @@ struct Client {
 
 impl Client {
     fn join(embedded: &Embedded, role: Role) -> Self {
+        Self::join_for(embedded, role, StreamChoice::default())
+    }
+
+    fn join_for(embedded: &Embedded, role: Role, choice: StreamChoice) -> Self {
         let epoch = Instant::now();
-        let hello = Hello { name: "test".to_owned(), role, stream: Stream::of(role) };
+        let hello = Hello { name: "test".to_owned(), role, stream: choice.stream(role) };
         let mut connection = Connection::open(embedded.address().to_string(), hello, epoch).unwrap();
         loop {
             match connection.poll() {
                 Some(Incoming::Welcome(welcome)) => {
-                    let session = Session::new(&welcome, StreamChoice::default(), role).unwrap();
+                    let session = Session::new(&welcome, choice, role).unwrap();
                     return Self { epoch, connection, session, controls: Controls::default() };
                 }
                 Some(other) => panic!("{other:?}"),
@@ -110,9 +114,11 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
 }
 
 #[test]
-fn a_player_stops_the_room_and_goes_on_where_it_was() {
+fn a_player_stops_the_room_and_goes_on_where_it_was_and_has_a_film_of_it() {
     let embedded = embedded();
-    let mut client = Client::join(&embedded, Role::Play);
+    // As the game asks for on a table of one's own.
+    let choice = StreamChoice { form: Some(Form::Inputs), hz: Some(60) };
+    let mut client = Client::join_for(&embedded, Role::Play, choice);
     assert!(client.run(|session| session.place() == Some(0) && has_ball(session)), "no ball was served");
     client.controls.key_down(KeyCode::Space);
     client.run_for(1.1);
@@ -139,6 +145,7 @@ fn a_player_stops_the_room_and_goes_on_where_it_was() {
     assert!(client.run(Session::is_paused));
     client.session.leave();
     assert!(client.run(|session| !session.is_paused() && !session.can_pause()));
+    assert!(client.run(|session| session.film().is_some()), "the game that was left has no film");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use macroquad::input::KeyCode;
 use serde::de::{Error, Unexpected};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// A key that can be bound. What the game keeps for itself (Enter, Escape, Tab, P, the function keys) and what window systems
+/// A key that can be bound. What the game keeps for itself (Enter, Escape, Tab, P, R, the function keys) and what window systems
 /// do (locks, Super, Print Screen) is none.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Key(KeyCode);
@@ -71,7 +71,6 @@ const KEYS: &[(KeyCode, &str, &str)] = &[
     (KeyCode::N, "N", "N"),
     (KeyCode::O, "O", "O"),
     (KeyCode::Q, "Q", "Q"),
-    (KeyCode::R, "R", "R"),
     (KeyCode::S, "S", "S"),
     (KeyCode::T, "T", "T"),
     (KeyCode::U, "U", "U"),
@@ -153,7 +152,7 @@ mod tests {
     fn what_the_game_or_the_desktop_keeps_cannot_be_bound() {
         use KeyCode as K;
         for kept in
-            [K::Enter, K::KpEnter, K::Escape, K::Tab, K::P, K::F1, K::F12, K::CapsLock, K::LeftSuper, K::Unknown]
+            [K::Enter, K::KpEnter, K::Escape, K::Tab, K::P, K::R, K::F1, K::F12, K::CapsLock, K::LeftSuper, K::Unknown]
         {
             assert_eq!(Key::of(kept), None);
         }

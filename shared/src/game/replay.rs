@@ -187,6 +187,14 @@ impl Replay {
         Ok(game)
     }
 
+    /// Whether this build can play it on this table.
+    ///
+    /// # Errors
+    /// If physics or table are not those that it was recorded with.
+    pub fn fits(&self, table: &Table) -> Result<(), ReplayError> {
+        self.0.fits(table)
+    }
+
     /// Version of the physics that it was recorded with.
     pub fn physics(&self) -> u32 {
         self.0.physics
