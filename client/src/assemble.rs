@@ -21,6 +21,9 @@ const NUDGES: [Nudge; 3] = [Nudge::FromLeft, Nudge::FromRight, Nudge::Forward];
 /// How far a pushed gate opens, radians, and how long it takes to fall shut, seconds.
 const GATE_OPEN: f64 = 1.3;
 const GATE_FALL: f64 = 0.35;
+/// For how many seconds a light winks before it goes out by itself, and how often a second.
+const WINK_SECONDS: f64 = 3.0;
+const WINK_HZ: f64 = 2.5;
 
 /// The view of a room; `with_overlay`: and of what the physics of its main board sees.
 pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overlay: bool) -> View {
@@ -127,7 +130,7 @@ fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Words, now: f64
     }
     for (place, &element) in table.lights.iter().enumerate() {
         if let Some(element) = view.elements.get_mut(usize::from(element)) {
-            element.lit = moment.game.lights() >> place & 1 == 1;
+            element.lit = moment.game.lights() >> place & 1 == 1 && !winks(moment.game.light_time_left(place));
         }
     }
     let magnets = table.scene.magnets.iter().zip(&moment.game.world().state().magnets);
@@ -140,6 +143,11 @@ fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Words, now: f64
         element.flash = effects.flash_of(place, now);
     }
     view
+}
+
+/// Whether a light with so many seconds left is dark for a moment: one that goes out by itself winks before it does.
+fn winks(left: Option<f64>) -> bool {
+    left.is_some_and(|left| left < WINK_SECONDS && (left * WINK_HZ).fract() < 0.5)
 }
 
 /// How far a plate is turned `t` seconds after its state began, radians. A spinner turns as the physics says; of a gate that
@@ -253,6 +261,13 @@ fn crowd_view(session: &Session, moment: &Moment<'_>, crowd: &shared::game::Crow
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn only_a_light_that_is_about_to_go_out_winks() {
+        assert!(!winks(None) && !winks(Some(3.0)) && !winks(Some(20.1)));
+        let dark = (0..300).filter(|&hundredths| winks(Some(f64::from(hundredths) / 100.0))).count();
+        assert!((140..=160).contains(&dark), "{dark} of 300");
+    }
 
     #[test]
     fn a_still_table_has_a_place_for_everything() {

@@ -24,6 +24,8 @@ const MESSAGE_SECONDS: f64 = 2.5;
 /// Points that float at once; the oldest go first.
 const MOST_POPUPS: usize = 24;
 
+/// What is said of a lost ball that is put into play again.
+const SAVED: &str = "BALL SAVED";
 /// Seconds that something great is cheered.
 const CHEER_SECONDS: f64 = 2.4;
 /// Words by which a message is known for something great.
@@ -76,9 +78,11 @@ impl Effects {
                 }
             }
             GameEventKind::Served { ball, .. } => self.say(format!("BALL {ball}"), now),
-            // One that takes the place of a ball in a lock is no multiball.
-            GameEventKind::Added { .. } if loose > self.caught => self.say("MULTIBALL".to_owned(), now),
-            GameEventKind::Saved { .. } => self.say("BALL SAVED".to_owned(), now),
+            // One that takes the place of a ball in a lock, or of one that is saved, is no multiball.
+            GameEventKind::Added { .. } if loose > self.caught && self.message(now) != Some(SAVED) => {
+                self.say("MULTIBALL".to_owned(), now);
+            }
+            GameEventKind::Saved { .. } => self.say(SAVED.to_owned(), now),
             GameEventKind::ExtraBall { .. } => {
                 self.cheered = Some(now);
                 self.say("EXTRA BALL".to_owned(), now);
@@ -271,5 +275,8 @@ mod tests {
         effects.see(&[], 0.01, 12.1);
         effects.note(&added, &table, 1, 12.2);
         assert_eq!(effects.message(12.2), Some("MULTIBALL"));
+        effects.note(&GameEvent { tick: 0, kind: GameEventKind::Saved { seat: 0 } }, &table, 1, 13.0);
+        effects.note(&added, &table, 1, 13.0);
+        assert_eq!(effects.message(13.0), Some("BALL SAVED"));
     }
 }

@@ -32,6 +32,14 @@ struct Played {
     rescued: u64,
     /// Balls that left the table and were served again.
     escaped: u64,
+    /// Lost balls that were put into play again.
+    saved: u64,
+    /// Extra balls that were won.
+    extra: u64,
+    /// Of each of the table's messages: how often it was shown.
+    messages: Vec<u32>,
+    /// Of each light: whether it was ever lit.
+    lit: u64,
     /// Whether it was given up.
     endless: bool,
 }
@@ -79,6 +87,44 @@ impl Games {
             .collect()
     }
 
+    /// What is said of an element that was never hit: the bot plays without a crowd that could raise what is down.
+    fn why_never(&self, name: &str) -> &'static str {
+        let is_down = |element: &ElementFile| matches!(element, ElementFile::DropTarget(target) if target.name == name && target.down);
+        if self.table.file.elements.iter().any(is_down) { "  down until raised" } else { "  never hit" }
+    }
+
+    /// Each line that the rules put on the display, with how often a game it was, and in what share of the games. Rules with the
+    /// same line are one.
+    fn messages(&self) -> Vec<(&str, f64, f64)> {
+        let count = self.played.len().max(1) as f64;
+        let mut places: Vec<(&str, Vec<usize>)> = Vec::new();
+        for (place, text) in self.table.rules.messages.iter().enumerate() {
+            match places.iter_mut().find(|(known, _)| known == text) {
+                Some((_, same)) => same.push(place),
+                None => places.push((text, vec![place])),
+            }
+        }
+        let told = |game: &Played, places: &[usize]| places.iter().map(|&place| game.messages[place]).sum::<u32>();
+        let rows = places.into_iter().map(|(text, places)| {
+            let times = self.played.iter().map(|game| u64::from(told(game, &places))).sum::<u64>();
+            let games = self.played.iter().filter(|game| told(game, &places) > 0).count();
+            (text, times as f64 / count, games as f64 / count)
+        });
+        rows.collect()
+    }
+
+    /// Each light, with the share of the games in which it was ever lit.
+    fn lights(&self) -> Vec<(&str, f64)> {
+        let count = self.played.len().max(1) as f64;
+        let lights = self.table.lights.iter().enumerate();
+        lights
+            .map(|(place, &element)| {
+                let games = self.played.iter().filter(|game| game.lit >> place & 1 == 1).count();
+                (self.table.file.elements[usize::from(element)].name(), games as f64 / count)
+            })
+            .collect()
+    }
+
     fn ball_times(&self) -> Spread {
         Spread::of(self.played.iter().flat_map(|game| game.ball_times.iter().copied()))
     }
@@ -107,6 +153,13 @@ impl Games {
             .into_iter()
             .map(|(name, hits, share)| json!({ "element": name, "hits_a_game": hits, "share_of_games": share }))
             .collect();
+        let messages: Vec<_> = self
+            .messages()
+            .into_iter()
+            .map(|(text, times, share)| json!({ "message": text, "times_a_game": times, "share_of_games": share }))
+            .collect();
+        let lights: Vec<_> =
+            self.lights().into_iter().map(|(name, share)| json!({ "light": name, "share_of_games": share })).collect();
         json!({
             "table": self.table.name,
             "games": self.played.len(),
@@ -114,6 +167,10 @@ impl Games {
             "game_seconds": self.game_times().json(),
             "points": self.points().json(),
             "elements": elements,
+            "messages": messages,
+            "lights": lights,
+            "balls_saved": self.sum(|game| game.saved),
+            "extra_balls": self.sum(|game| game.extra),
             "kickers_fired": self.sum(|game| game.kicked),
             "rescued": self.sum(|game| game.rescued),
             "escaped": self.sum(|game| game.escaped),
@@ -149,11 +206,28 @@ impl Games {
             self.sum(|game| game.escaped),
             self.sum(|game| u64::from(game.endless)),
         ));
+        line(format_args!(
+            "{} lost balls saved, {} extra balls won",
+            self.sum(|game| game.saved),
+            self.sum(|game| game.extra)
+        ));
         line(format_args!(""));
         line(format_args!("{:<24}{:>12}{:>12}", "element", "hits a game", "of games"));
         for (name, hits, share) in self.elements() {
-            let never = if share > 0.0 { "" } else { "  never hit" };
+            let never = if share > 0.0 { "" } else { self.why_never(name) };
             line(format_args!("{name:<24}{hits:>12.2}{:>10.1} %{never}", 100.0 * share));
+        }
+        line(format_args!(""));
+        line(format_args!("{:<24}{:>12}{:>12}", "message", "a game", "of games"));
+        for (text, times, share) in self.messages() {
+            let never = if share > 0.0 { "" } else { "  never told" };
+            line(format_args!("{text:<24}{times:>12.2}{:>10.1} %{never}", 100.0 * share));
+        }
+        line(format_args!(""));
+        line(format_args!("{:<24}{:>12}{:>12}", "light", "", "lit in"));
+        for (name, share) in self.lights() {
+            let never = if share > 0.0 { "" } else { "  never lit" };
+            line(format_args!("{name:<24}{:>12}{:>10.1} %{never}", "", 100.0 * share));
         }
         out
     }
@@ -174,6 +248,10 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
         kicked: 0,
         rescued: 0,
         escaped: 0,
+        saved: 0,
+        extra: 0,
+        messages: vec![0; table.rules.messages.len()],
+        lit: 0,
         endless: true,
     };
     let mut served = None;
@@ -185,6 +263,9 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
                 GameEventKind::Flipped { .. } => played.flips += 1,
                 GameEventKind::Rescued { by: Rescue::Kickers } => played.kicked += 1,
                 GameEventKind::Rescued { by: Rescue::Relaunch } => played.rescued += 1,
+                GameEventKind::Saved { .. } => played.saved += 1,
+                GameEventKind::ExtraBall { .. } => played.extra += 1,
+                GameEventKind::Message { place } => played.messages[usize::from(place)] += 1,
                 GameEventKind::Served { .. } => served = Some(tick),
                 GameEventKind::Lost { .. } => {
                     played.ball_times.extend(served.take().map(|served| (tick - served) as f64 * dt));
@@ -209,6 +290,7 @@ fn play(table: &Arc<Table>, seed: u64) -> Played {
                 EventKind::Ejected { .. } | EventKind::Stalled { .. } | EventKind::Drained => {}
             }
         }
+        played.lit |= game.lights();
         if matches!(game.phase(), Phase::Over) {
             (played.time, played.endless) = ((tick + 1) as f64 * dt, false);
             break;
@@ -277,6 +359,12 @@ mod tests {
         let of = |name: &str| elements.iter().find(|element| element["element"] == name);
         assert!(of("bumper 1").is_some_and(|bumper| number(&bumper["hits_a_game"]) > 0.0), "{told}");
         assert!(of("drain").is_none() && of("lane 1 light").is_none(), "{told}");
+        let rows = |what: &str| told[what].as_array().map(Vec::len);
+        assert_eq!(rows("lights"), Some(table.lights.len()));
+        let mut texts = table.rules.messages.clone();
+        texts.sort();
+        texts.dedup();
+        assert_eq!(rows("messages"), Some(texts.len()), "each once");
         assert!(games.text().contains("bumper 1"));
     }
 

@@ -10,6 +10,7 @@ use super::{Action, Announced, Bot, Game, GameEventKind, HOUSE, Input, Nudge, Ph
 use crate::math::Rng;
 use crate::physics::TargetState;
 use crate::physics::ball::{Instant, Support};
+use crate::rules::BallSave;
 use crate::table::{CrowdRules, SHIPPED, Table};
 
 fn classic() -> Arc<Table> {
@@ -60,6 +61,7 @@ fn place_ball(game: &mut Game, position: DVec2, velocity: DVec2) {
     (ball.flight.position, ball.flight.velocity) = (position, velocity);
     ball.flight.acceleration = game.table().scene.gravity;
     (ball.support, ball.past, ball.spin) = (Support::None, None, 0.0);
+    state.play.rules.save = BallSave::default();
     assert_eq!(game.restore(state), Ok(()));
 }
 
@@ -161,7 +163,7 @@ fn a_turn_s_end_or_a_tilt_undoes_everything_and_a_lost_ball_pays_the_crowd() {
         assert!(crowd.ready_in(orbit) > 0, "{what}: it cools down");
         let per_ball = if what == "lost" { rules(&game).points_per_ball } else { 0 };
         // Until the game tilts the lights are dimmed as well.
-        let dims = if what == "tilted" { 1000 } else { 0 };
+        let dims = if what == "tilted" { rules(&game).actions[usize::from(dim)].points } else { 0 };
         assert_eq!((crowd.points(), game.is_dimmed()), (points + per_ball + dims, false), "{what}");
         let as_it_was = crate::physics::World::new(Arc::clone(&game.table().scene)).state().targets.clone();
         assert_eq!(game.world().state().targets, as_it_was, "{what}");
@@ -212,7 +214,9 @@ impl Hands {
             act(0, Action::Start);
         }
         if self.rng.bits().is_multiple_of(500) {
-            act(HOUSE, Action::Crowd((self.rng.bits() % 6) as u8));
+            // Now and then it saves its energy for what is dearest.
+            let wanted = if tick / 20_000 % 4 == 3 { 4 } else { self.rng.bits() % 6 };
+            act(HOUSE, Action::Crowd(wanted as u8));
         }
         self.bot.play(game, |action| act(0, action));
     }
@@ -273,7 +277,7 @@ fn ten_minutes_of_a_crowd_that_does_all_it_can() {
     }
     assert!(acted.iter().all(|ticks| ticks.len() >= 2), "{acted:?}");
     assert_eq!(rescued, 0, "a ball was stuck or escaped");
-    assert!(undone > 40 && cut >= 3, "{undone} undone, {cut} of them by the end of the turn");
+    assert!(undone > 30 && cut >= 1, "{undone} undone, {cut} of them by the end of the turn");
     let replay = recorder.finish(&game).unwrap_or_else(|error| panic!("{error}"));
     let read = Replay::parse("crowd.ron", &replay.to_text()).unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(read, replay);

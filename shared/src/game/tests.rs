@@ -6,6 +6,7 @@ use glam::DVec2;
 
 use super::{Action, Bot, Game, GameEventKind, Input, Phase, Rescue, SEATS};
 use crate::physics::ball::Instant;
+use crate::rules::BallSave;
 use crate::table::{ElementFile, Table};
 
 const RELAUNCH: GameEventKind = GameEventKind::Rescued { by: Rescue::Relaunch };
@@ -53,7 +54,8 @@ fn element(game: &Game, name: &str) -> u16 {
     place.unwrap_or_else(|| panic!("Classic has no {name}")) as u16
 }
 
-/// Puts the ball in play somewhere else, at some velocity: through the state, as a save that was edited.
+/// Puts the ball in play somewhere else, at some velocity: through the state, as a save that was edited. When it is lost then,
+/// it is lost.
 fn place_ball(game: &mut Game, position: DVec2, velocity: DVec2) {
     let mut state = game.state();
     let tick = state.world.tick;
@@ -62,6 +64,7 @@ fn place_ball(game: &mut Game, position: DVec2, velocity: DVec2) {
     (ball.flight.position, ball.flight.velocity) = (position, velocity);
     ball.flight.acceleration = game.table().scene.gravity;
     (ball.support, ball.past, ball.spin) = (crate::physics::ball::Support::None, None, 0.0);
+    state.play.rules.save = BallSave::default();
     assert_eq!(game.restore(state), Ok(()));
 }
 
@@ -267,12 +270,14 @@ fn all_three_lanes_raise_the_multiplier_up_to_six() {
             let before = game.seats()[0].score.points;
             let events = pass(&mut game, lane);
             let last = place == 2;
-            let expected = 250 + if last { 1000 } else { 0 };
+            let most = if last && round > 5 { 10_000 } else { 0 };
+            let expected = 250 + most + if last { 1000 } else { 0 };
             assert_eq!(game.seats()[0].score.points - before, expected, "{lane}: {events:?}");
-            let up = events.iter().any(|event| {
-                matches!(event, GameEventKind::Message { place } if game.table().rules.messages[usize::from(*place)] == "MULTIPLIER UP")
+            let text = if round > 5 { "LANES 10000".to_owned() } else { format!("BONUS X{}", round + 1) };
+            let told = events.iter().any(|event| {
+                matches!(event, GameEventKind::Message { place } if game.table().rules.messages[usize::from(*place)] == text)
             });
-            assert_eq!(up, last);
+            assert_eq!(told, last, "{text}");
         }
     }
     assert_eq!(game.seats()[0].score.multiplier, 6);
