@@ -46,6 +46,9 @@ pub(crate) struct Arguments {
     /// Prints at the end what was drawn, received and predicted.
     #[arg(long, global = true)]
     stats: bool,
+    /// Saves pictures of moments that are always the same, to be compared, and quits.
+    #[arg(long, value_name = "FOLDER", hide = true)]
+    stills: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -141,6 +144,8 @@ pub(crate) struct Options {
     pub(crate) overlay: bool,
     /// Whether to print statistics at the end.
     pub(crate) stats: bool,
+    /// Where pictures to be compared go, if that is what is asked for.
+    pub(crate) stills: Option<PathBuf>,
 }
 
 impl Arguments {
@@ -165,8 +170,8 @@ impl Arguments {
         };
         let screenshot = self.screenshot.map(|file| Screenshot { file, after: self.after });
         let settings = self.settings.or_else(settings::usual_file);
-        let Self { name, fps, volume, overlay, stats, .. } = self;
-        Ok(Options { goal, name, settings, screenshot, fps, volume, overlay, stats })
+        let Self { name, fps, volume, overlay, stats, stills, .. } = self;
+        Ok(Options { goal, name, settings, screenshot, fps, volume, overlay, stats, stills })
     }
 }
 

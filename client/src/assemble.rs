@@ -90,7 +90,7 @@ pub(crate) fn film_view(projector: &Projector, effects: &mut Effects, words: Wor
 }
 
 /// What is to be seen on a board.
-fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Words, now: f64) -> View {
+pub(crate) fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Words, now: f64) -> View {
     let table = moment.game.table();
     let mut view = still_view(table, words, now);
     effects.see(&moment.balls, table.file.ball.radius as f32, now);
@@ -214,7 +214,8 @@ fn fill_hud(hud: &mut Hud, session: &Session, moment: &Moment<'_>) {
     }
 }
 
-fn fill_counters(hud: &mut Hud, moment: &Moment<'_>) {
+/// Ball, bonus and multiplier of whoever has the turn.
+pub(crate) fn fill_counters(hud: &mut Hud, moment: &Moment<'_>) {
     if let Phase::Play { seat, .. } = moment.game.phase()
         && let Some(seat) = moment.game.seats().get(usize::from(seat))
     {

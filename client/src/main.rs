@@ -31,12 +31,14 @@ mod screens;
 mod session;
 mod settings;
 mod snapshots;
+mod stills;
 mod streams;
 mod timing;
 mod view;
 
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
 use std::process::ExitCode;
 use std::rc::Rc;
 use std::sync::Arc;
@@ -68,9 +70,12 @@ fn run() -> Result<(), String> {
         (Ok(()), _) => {
             // What the game's own server has to say is for a server's host, not for a player.
             log("warn,starball_server=error");
-            in_window(options)
+            match options.stills {
+                Some(folder) => save_stills(folder),
+                None => in_window(options),
+            }
         }
-        (Err(problem), Goal::Own(table)) if options.screenshot.is_none() => {
+        (Err(problem), Goal::Own(table)) if options.screenshot.is_none() && options.stills.is_none() => {
             log("info");
             without_window(&problem, Arc::clone(table))
         }
@@ -125,6 +130,18 @@ fn in_window(options: Options) -> Result<(), String> {
         say(&report);
     }
     Ok(())
+}
+
+/// Saves pictures of moments that are always the same.
+fn save_stills(folder: PathBuf) -> Result<(), String> {
+    let outcome = Rc::new(Cell::new(None));
+    let told = Rc::clone(&outcome);
+    let (width, height) = stills::SIZE;
+    let conf = Conf { window_width: width.into(), window_height: height.into(), ..Conf::default() };
+    macroquad::Window::from_config(conf, async move {
+        told.set(Some(stills::save(&folder).await));
+    });
+    outcome.take().unwrap_or_else(|| Err("the window was closed before all pictures were saved".to_owned()))
 }
 
 fn first_shipped() -> Result<Arc<Table>, String> {
