@@ -17,7 +17,8 @@ impl World {
     pub(super) fn turn_back_on_edge(&mut self, ball: usize, offset: f64, position: DVec2, velocity: DVec2) {
         let subject = &self.state.balls[ball];
         let before = subject.flight;
-        if before.start != (Instant { tick: self.state.tick, offset }) || before.position != position {
+        let now = Instant { tick: self.state.tick, offset };
+        if now.since(before.start, self.scene.tick_seconds) > 0.0 || before.position != position {
             return;
         }
         let back = self.scene.colliders.iter().find_map(|collider| {

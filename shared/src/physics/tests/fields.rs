@@ -55,6 +55,29 @@ fn a_fast_ball_rolls_over_the_crest_with_the_speed_that_is_left() {
     }
 }
 
+/// Broke: two balls met where one of them had just come on to a ramp. It was thrown back on the ramp's floor, and rolled on
+/// there, under the playfield's walls and off the table.
+#[test]
+fn a_ball_that_is_thrown_back_as_it_crosses_an_edge_stays_on_its_floor() {
+    let source = r#"Scene(gravity: (0.0, 0.0), floors: [(0.0, -3.0)], bounds: (0.0, 0.0, 1.0, 1.0),
+        balls: [(position: (0.5, 0.2), velocity: (0.0, 1.0)), (position: (0.5, 0.8), mass: 0.8)],
+        elements: [Edge(name: "foot", from: (0.4, 0.3), to: (0.6, 0.3), floors: (0, 1))])"#;
+    let table = Table::parse("ramp.ron", source).unwrap_or_else(|error| panic!("{error}"));
+    let mut world = World::new(table.scene);
+    let mut state = world.state().clone();
+    let other = &mut state.balls[1];
+    other.floor = 1;
+    // At the foot it is a millimetre too near for both.
+    other.flight.position = DVec2::new(0.5, 0.511);
+    other.flight.acceleration = DVec2::new(0.0, -3.0);
+    other.flight.velocity = DVec2::new(0.0, -1.7);
+    world.restore(state).unwrap_or_else(|error| panic!("{error}"));
+    run(&mut world, 130);
+    let (position, velocity) = ball(&world, 0);
+    assert!(velocity.y < -1.0 && position.y < 0.3, "it is thrown back, {position} {velocity}");
+    assert_eq!(world.state.balls[0].floor, 0, "as on the playfield");
+}
+
 #[test]
 fn the_sides_of_a_ramp_hold_only_what_is_on_it() {
     // Up the ramp at a slant, it bounces off the ramp's own wall, and not off what is under the ramp.
