@@ -310,9 +310,9 @@ impl App {
         if let Some(cinema) = &mut self.cinema {
             return cinema.let_hear(&mut self.audio);
         }
-        let Some((events, session)) = game else { return };
+        let Some((events, session)) = game else { return self.audio.hush() };
         let (board, is_own) = (session.main_board(), matches!(self.goal, Goal::Own(_)));
-        let Some(moment) = session.moment(board) else { return };
+        let Some(moment) = session.moment(board) else { return self.audio.hush() };
         let is_attract = is_own && session.place().is_none();
         self.audio.hear(&Scene { table: session.table(), board, moment: &moment, events: &events, is_attract });
     }

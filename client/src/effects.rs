@@ -31,6 +31,11 @@ const CHEER_SECONDS: f64 = 2.4;
 /// Words by which a message is known for something great.
 const GREAT: [&str; 5] = ["JACKPOT", "EXTRA BALL", "MULTIBALL", "SPECIAL", "SUPER"];
 
+/// Whether a message tells of something great.
+pub(crate) fn is_great(message: &str) -> bool {
+    GREAT.iter().any(|word| message.contains(word))
+}
+
 /// What is to be seen of past events.
 #[derive(Debug, Default)]
 pub(crate) struct Effects {
@@ -71,7 +76,7 @@ impl Effects {
             }
             GameEventKind::Message { place } => {
                 if let Some(text) = table.rules.messages.get(usize::from(place)) {
-                    if GREAT.iter().any(|word| text.contains(word)) {
+                    if is_great(text) {
                         self.cheered = Some(now);
                     }
                     self.say(text.clone(), now);
@@ -250,7 +255,7 @@ mod tests {
             (effects.cheer(now + 0.5), effects.tilt(now + 0.5))
         };
         assert_eq!(note(GameEventKind::Lost { seat: 0 }, 1.0), (None, None));
-        let great = table.rules.messages.iter().position(|text| GREAT.iter().any(|word| text.contains(word)));
+        let great = table.rules.messages.iter().position(|text| is_great(text));
         let great = GameEventKind::Message { place: great.unwrap() as u16 };
         assert_eq!(note(great, 10.0), (Some(0.5), None));
         assert_eq!(note(GameEventKind::Lost { seat: 0 }, 14.0), (None, None));

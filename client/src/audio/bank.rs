@@ -72,11 +72,13 @@ pub(crate) enum Sound {
     Alarm,
     /// All kickers fire for a stuck ball.
     Search,
+    /// The knocker in the backbox: something was won.
+    Knock,
 }
 
 impl Sound {
     /// All of them, in the order of their numbers.
-    pub(super) const ALL: [Self; 33] = [
+    pub(super) const ALL: [Self; 34] = [
         Self::Rubber,
         Self::Metal,
         Self::Wood,
@@ -110,18 +112,20 @@ impl Sound {
         Self::Over,
         Self::Alarm,
         Self::Search,
+        Self::Knock,
     ];
 
     /// How loud it is beside the others, 0 to 1.
     pub(super) fn level(self) -> f32 {
         match self {
-            Self::Bumper | Self::Slingshot | Self::Tilt | Self::Jackpot | Self::Nudge => 0.8,
-            Self::Raise | Self::Launch | Self::Eject | Self::Multiball | Self::Start | Self::Search => 0.65,
-            Self::FlipperUp | Self::Drop | Self::Serve | Self::Drain | Self::Award | Self::Over => 0.55,
-            Self::Target | Self::Catch | Self::Warning | Self::Multiplier | Self::Alarm | Self::Clack => 0.5,
-            Self::Rubber | Self::Metal | Self::Wood | Self::Plastic => 0.4,
-            Self::FlipperDown | Self::Gate | Self::Spinner | Self::Rollover | Self::Pull => 0.3,
-            Self::Chime => 0.22,
+            Self::Bumper | Self::Slingshot | Self::Nudge | Self::Knock => 1.0,
+            Self::Tilt | Self::Raise | Self::Launch | Self::Eject | Self::Search => 0.9,
+            Self::FlipperUp | Self::Drop | Self::Serve | Self::Jackpot | Self::Clack => 0.8,
+            Self::Rubber | Self::Metal | Self::Wood | Self::Plastic | Self::Target | Self::Catch => 0.7,
+            Self::Drain | Self::Award | Self::Multiball | Self::Start | Self::Over | Self::Multiplier => 0.6,
+            Self::FlipperDown | Self::Gate | Self::Spinner | Self::Rollover | Self::Pull => 0.5,
+            Self::Warning | Self::Alarm => 0.5,
+            Self::Chime => 0.3,
         }
     }
 
@@ -210,6 +214,12 @@ impl Sound {
                     .glide(0.0, (98.0, 44.0), 0.07, 0.07, 1.0)
                     .noise(0.0, (60.0, 700.0), 0.03, 1.2)
                     .noise(0.04, (1500.0, 6000.0), 0.05, 0.12),
+                // A plunger of steel against a board of wood.
+                Self::Knock => new(0.3)
+                    .glide(0.0, (230.0, 120.0), 0.02, 0.045, 1.0)
+                    .ring(0.0, 410.0, 0.03, 0.7)
+                    .ring(0.0, 870.0, 0.018, 0.4)
+                    .noise(0.0, (700.0, 7000.0), 0.006, 1.2),
                 _ => self.tune(),
             };
         wave.finish()

@@ -1,11 +1,11 @@
 //! The sound's thread: takes cues, mixes, and waits for the device.
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError};
 use std::time::Instant;
 
 use super::bank::Bank;
+use super::faders::Faders;
 use super::mixer::{Cue, Mixer};
 use super::output;
 
@@ -16,16 +16,14 @@ const APPROACH: f32 = 0.2;
 pub(super) struct Engine {
     mixer: Mixer,
     cues: Receiver<Cue>,
-    /// 0 to 100.
-    volume: Arc<AtomicU8>,
+    faders: Arc<Faders>,
     gain: f32,
 }
 
 /// Lets cues be heard until nobody can send any more, or no device takes them.
-pub(super) fn run(cues: Receiver<Cue>, volume: Arc<AtomicU8>) {
+pub(super) fn run(cues: Receiver<Cue>, faders: Arc<Faders>) {
     let start = Instant::now();
-    let gain = gain_of(volume.load(Ordering::Relaxed));
-    let engine = Engine { mixer: Mixer::new(Bank::new()), cues, volume, gain };
+    let engine = Engine { mixer: Mixer::new(Bank::new()), cues, faders, gain: 0.0 };
     tracing::debug!("sounds made in {:.1} ms", start.elapsed().as_secs_f64() * 1000.0);
     output::play(engine);
 }
@@ -40,12 +38,13 @@ impl Engine {
                 Err(TryRecvError::Disconnected) => return false,
             }
         }
-        self.gain += APPROACH * (gain_of(self.volume.load(Ordering::Relaxed)) - self.gain);
-        self.mixer.mix(block, self.gain, rate);
+        self.gain += APPROACH * (self.faders.gain() - self.gain);
+        self.mixer.mix(block, self.gain, self.faders.roll(), rate);
         true
     }
 
     /// Forgets what has waited while the device stood still; `false` if the program has ended.
+    #[cfg(any(test, target_os = "linux"))]
     pub(super) fn skip(&mut self) -> bool {
         loop {
             match self.cues.try_recv() {
@@ -55,12 +54,6 @@ impl Engine {
             }
         }
     }
-}
-
-/// Ears hear ratios: half the volume is a quarter of the amplitude.
-fn gain_of(volume: u8) -> f32 {
-    let share = f32::from(volume.min(100)) / 100.0;
-    share * share
 }
 
 #[cfg(test)]
@@ -80,15 +73,15 @@ mod tests {
     #[test]
     fn plays_what_is_sent_as_loud_as_it_is_set_until_nobody_sends() {
         let (sender, cues) = sync_channel(8);
-        let volume = Arc::new(AtomicU8::new(100));
-        let mut engine =
-            Engine { mixer: Mixer::new(Bank::new()), cues, volume: Arc::clone(&volume), gain: gain_of(100) };
+        let faders = Arc::new(Faders::default());
+        faders.set_volume(100);
+        let mut engine = Engine { mixer: Mixer::new(Bank::new()), cues, faders: Arc::clone(&faders), gain: 1.0 };
         let cue = Cue { sound: Sound::Tilt, gain: 0.5, pan: 0.0, pitch: 1.0, delay: 0.0 };
         assert_eq!(peak(&mut engine), 0.0);
         sender.send(cue).unwrap();
         peak(&mut engine);
         assert!(peak(&mut engine) > 0.1);
-        volume.store(0, Ordering::Relaxed);
+        faders.set_volume(0);
         assert!(peak(&mut engine) > 0.1, "no jump");
         assert!((0..40).map(|_| peak(&mut engine)).last().unwrap() < 1e-3);
         sender.send(cue).unwrap();

@@ -8,12 +8,16 @@ use shared::table::Table;
 use shared::table::format::{ElementFile, Hand, Point};
 
 use super::bank::Sound;
+use super::faders::Roll;
 use super::mixer::Cue;
+use crate::effects::is_great;
 use crate::moment::{Moment, Motion};
 
 /// Normal speeds at which an impact is as loud as can be, and below which it is not heard, m/s.
 const LOUDEST_IMPACT: f32 = 3.0;
 const FAINTEST_IMPACT: f32 = 0.08;
+/// Speed, of all balls together, from which they roll no louder, m/s.
+const FASTEST_ROLL: f32 = 3.0;
 /// Loudness grows by this power of the speed: a soft touch is still heard beside a hard one.
 const BY_SPEED: f32 = 0.7;
 /// Seconds within which an element makes the same sound once: faster, a rattle is a buzz.
@@ -77,9 +81,8 @@ impl Listener {
             let heard = self.cue_of(event.kind, &moment.balls).map(|cue| {
                 // What brings so many points deserves more than its message.
                 let of_tick = events[..place].iter().rev().take_while(|other| other.tick == event.tick);
-                let is_great =
-                    |other: &GameEvent| matches!(other.kind, GameEventKind::Points { points: JACKPOT.., .. });
-                let is_jackpot = cue.sound == Sound::Award && of_tick.into_iter().any(is_great);
+                let is_much = |other: &GameEvent| matches!(other.kind, GameEventKind::Points { points: JACKPOT.., .. });
+                let is_jackpot = cue.sound == Sound::Award && of_tick.into_iter().any(is_much);
                 Cue { sound: if is_jackpot { Sound::Jackpot } else { cue.sound }, ..cue }
             });
             if let Some(cue) = heard.filter(|cue| self.is_new(cue.sound, element_of(event.kind), event.tick)) {
@@ -88,6 +91,16 @@ impl Listener {
             }
         }
         self.pictured = now;
+    }
+
+    /// What rolls: all balls that are free, where the fastest of them are. Nothing does while the game stands still.
+    pub(super) fn roll(&self, moment: &Moment<'_>) -> Roll {
+        let free = moment.balls.iter().filter(|ball| !ball.is_held && moment.at.tick != self.pictured);
+        let (speed, leaning) = free.fold((0.0, 0.0), |(sum, leaning), ball| {
+            let speed = ball.velocity.length() as f32;
+            (sum + speed, leaning + speed * self.pan_at(ball.position.x))
+        });
+        if speed > 0.0 { Roll { speed: (speed / FASTEST_ROLL).min(1.0), pan: leaning / speed } } else { Roll::NONE }
     }
 
     /// A cue for a sound of that element, or from the middle.
@@ -124,10 +137,17 @@ impl Listener {
                 tuned(Sound::Chime, note_of(points), self.pan_at(x.into()))
             }
             K::Points { points: 1.., place: None, .. } => tuned(Sound::Multiplier, 1.0, 0.0),
-            K::Message { .. } => tuned(Sound::Award, 1.0, 0.0),
+            K::Message { place } => {
+                let is_great = self.table.rules.messages.get(usize::from(place)).is_some_and(|text| is_great(text));
+                tuned(if is_great { Sound::Jackpot } else { Sound::Award }, 1.0, 0.0)
+            }
             K::Flipped { right } => {
                 let pan = self.hand_of(right);
                 Cue { pan, ..self.cue(Sound::FlipperUp, 1.0, None) }
+            }
+            K::Met { speed, place: (x, _) } => {
+                let pan = self.pan_at(x.into());
+                Cue { pan, ..self.cue(Sound::Clack, loudness(speed)?, None) }
             }
             K::Started => tuned(Sound::Start, 1.0, 0.0),
             // One that takes the place of a ball in a lock is no multiball.
@@ -136,6 +156,9 @@ impl Listener {
                 let pan = self.pan_at(self.table.ball_start.x);
                 Cue { pan, ..self.cue(Sound::Serve, 1.0, None) }
             }
+            K::Saved { .. } => tuned(Sound::Multiplier, 0.75, 0.0),
+            K::ExtraBall { .. } => tuned(Sound::Knock, 1.0, 0.0),
+            K::Again { .. } => tuned(Sound::Award, 1.0, 0.0),
             K::Lost { .. } | K::Forfeited { .. } => tuned(Sound::Drain, 1.0, 0.0),
             // After the last ball has been heard to drain.
             K::Over => Cue { delay: 0.7, ..tuned(Sound::Over, 1.0, 0.0) },

@@ -3,6 +3,8 @@
 use std::f32::consts::FRAC_PI_4;
 
 use super::bank::{Bank, Sound};
+use super::faders::Roll;
+use super::rumble::Rumble;
 use super::synth::RATE;
 
 /// Sounds at once; a further one takes the place of the one of which least is left to be heard.
@@ -38,12 +40,13 @@ struct Voice {
 pub(super) struct Mixer {
     bank: Bank,
     voices: Vec<Voice>,
+    rumble: Rumble,
 }
 
 impl Mixer {
     /// Nothing sounds yet.
     pub(super) fn new(bank: Bank) -> Self {
-        Self { bank, voices: Vec::with_capacity(MOST_VOICES) }
+        Self { bank, voices: Vec::with_capacity(MOST_VOICES), rumble: Rumble::new() }
     }
 
     /// Begins a sound.
@@ -65,10 +68,11 @@ impl Mixer {
     }
 
     /// Fills `out`, left and right in turn, with what sounds next, at `rate` samples a second.
-    pub(super) fn mix(&mut self, out: &mut [f32], gain: f32, rate: u32) {
+    pub(super) fn mix(&mut self, out: &mut [f32], gain: f32, roll: Roll, rate: u32) {
         out.fill(0.0);
         let (bank, step) = (&self.bank, RATE as f32 / rate as f32);
         self.voices.retain_mut(|voice| voice.add_to(out, bank.samples(voice.sound), step));
+        self.rumble.add_to(out, roll, rate);
         out.iter_mut().for_each(|sample| *sample = limited(*sample * gain));
     }
 }
@@ -123,7 +127,7 @@ mod tests {
         let mut mixer = Mixer::new(Bank::new());
         cues.iter().for_each(|&cue| mixer.play(cue));
         let mut out = vec![0.0; RATE as usize / 5];
-        mixer.mix(&mut out, 1.0, RATE);
+        mixer.mix(&mut out, 1.0, Roll::NONE, RATE);
         let side = |side: usize| {
             let square: f32 = out.iter().skip(side).step_by(2).map(|sample| sample * sample).sum();
             (square / (out.len() / 2) as f32).sqrt()
@@ -169,13 +173,13 @@ mod tests {
         let mut mixer = Mixer::new(Bank::new());
         mixer.play(Cue { delay: 0.01, pitch: 2.0, ..cue(Sound::Wood, 1.0, 0.0) });
         let mut out = vec![0.0; 2 * 480];
-        mixer.mix(&mut out, 1.0, RATE);
+        mixer.mix(&mut out, 1.0, Roll::NONE, RATE);
         assert!(out.iter().all(|sample| *sample == 0.0));
-        mixer.mix(&mut out, 1.0, RATE);
+        mixer.mix(&mut out, 1.0, Roll::NONE, RATE);
         assert!(out.iter().any(|sample| *sample != 0.0));
         // A tenth of a second, twice as fast.
         for _ in 0..4 {
-            mixer.mix(&mut out, 1.0, RATE);
+            mixer.mix(&mut out, 1.0, Roll::NONE, RATE);
         }
         assert!(mixer.voices.is_empty());
     }

@@ -1,19 +1,20 @@
 //! What is heard of the game. The frame hands over what happened; everything else, from making the sounds to waiting for
 //! the sound device, is done on a thread of its own, and nothing that the device does holds a frame up.
 //!
-//! `listener` turns events into cues, `machinery` what moves without an event; `synth` and `bank` make the sounds, `mixer`
-//! adds them up, `engine` is the thread, `output` the device.
+//! `listener` turns events into cues, `machinery` what moves without an event; `synth` and `bank` make the sounds,
+//! `rumble` that of a rolling ball, `mixer` adds them up; `engine` is the thread, `faders` what it is told, `output` the device.
 
 mod bank;
 mod engine;
+mod faders;
 mod listener;
 mod machinery;
 mod mixer;
 mod output;
+mod rumble;
 mod synth;
 
 use std::sync::Arc;
-use std::sync::atomic::{AtomicU8, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 
@@ -21,6 +22,7 @@ use shared::game::GameEvent;
 use shared::table::Table;
 
 use crate::moment::Moment;
+use faders::{Faders, Roll};
 use listener::Listener;
 use machinery::Machinery;
 use mixer::Cue;
@@ -52,8 +54,7 @@ pub(crate) struct Scene<'a> {
 #[derive(Debug)]
 pub(crate) struct Audio {
     cues: Option<SyncSender<Cue>>,
-    /// 0 to 100.
-    volume: Arc<AtomicU8>,
+    faders: Arc<Faders>,
     /// Says no more once the thread has ended.
     thread: Receiver<()>,
     /// Of the table whose game is heard.
@@ -65,21 +66,26 @@ impl Audio {
     pub(crate) fn start() -> Self {
         let (sender, cues) = sync_channel(MOST_WAITING);
         let (alive, thread) = sync_channel(0);
-        let volume = Arc::new(AtomicU8::new(0));
-        let shared = Arc::clone(&volume);
+        let faders = Arc::new(Faders::default());
+        let told = Arc::clone(&faders);
         let spawned = std::thread::Builder::new().name("sound".to_owned()).spawn(move || {
             let _alive: SyncSender<()> = alive;
-            engine::run(cues, shared);
+            engine::run(cues, told);
         });
         if let Err(error) = &spawned {
             tracing::warn!("no sound: {error}");
         }
-        Self { cues: spawned.ok().map(|_| sender), volume, thread, ears: None }
+        Self { cues: spawned.ok().map(|_| sender), faders, thread, ears: None }
     }
 
     /// How loud everything is from now on, 0 to 100.
     pub(crate) fn set_volume(&self, volume: u8) {
-        self.volume.store(volume.min(100), Ordering::Relaxed);
+        self.faders.set_volume(volume);
+    }
+
+    /// There is nothing to be heard: what sounds comes to its end.
+    pub(crate) fn hush(&self) {
+        self.faders.set_roll(Roll::NONE);
     }
 
     /// Lets be heard what happened since the last picture. Never waits.
@@ -93,6 +99,8 @@ impl Audio {
             let _ = cues.try_send(Cue { gain: cue.gain * gain, ..cue });
         };
         let (listener, machinery) = &mut ears;
+        let roll = listener.roll(scene.moment);
+        self.faders.set_roll(Roll { speed: roll.speed * gain, ..roll });
         machinery.observe(scene.moment, listener, &mut play);
         listener.hear(scene.moment, scene.events, &mut play);
         self.ears = Some(ears);
@@ -117,7 +125,7 @@ mod tests {
     fn a_thread_that_takes_nothing_holds_nobody_up() {
         let (sender, _cues) = sync_channel(2);
         let (_alive, thread) = sync_channel(0);
-        let mut audio = Audio { cues: Some(sender), volume: Arc::default(), thread, ears: None };
+        let mut audio = Audio { cues: Some(sender), faders: Arc::default(), thread, ears: None };
         let table = Arc::new(Table::shipped("classic").unwrap().unwrap());
         let game = shared::game::Game::new(Arc::clone(&table));
         let moment = Moment::of(&game, 0.0);
@@ -132,8 +140,6 @@ mod tests {
                 is_attract: false,
             });
         }
-        audio.set_volume(200);
-        assert_eq!(audio.volume.load(Ordering::Relaxed), 100);
         // The thread is not there to end: dropping waits for it no longer than it says.
         drop(audio);
     }

@@ -57,7 +57,7 @@ impl Waveform {
     pub(super) fn noise(mut self, at: f32, (low, high): (f32, f32), decay: f32, level: f32) -> Self {
         let shrink = falls(decay);
         let mut rng = self.rng.clone();
-        let (slow, fast) = (smoothing(low), smoothing(high));
+        let (slow, fast) = (smoothing(low, RATE), smoothing(high, RATE));
         let (mut level, mut below_high, mut below_low) = (level, 0.0_f32, 0.0_f32);
         for sample in self.from(at) {
             let white = rng.between(-1.0, 1.0) as f32;
@@ -120,9 +120,9 @@ fn falls(decay: f32) -> f32 {
     (-1.0 / (decay * RATE_F)).exp()
 }
 
-/// The share by which a low-pass of the first order follows, a sample.
-fn smoothing(hertz: f32) -> f32 {
-    1.0 - (-TAU * hertz / RATE_F).exp()
+/// The share by which a low-pass of the first order follows with each of so many samples a second.
+pub(super) fn smoothing(hertz: f32, rate: u32) -> f32 {
+    1.0 - (-TAU * hertz / rate as f32).exp()
 }
 
 #[cfg(test)]

@@ -75,3 +75,26 @@ impl Board {
         self.snapshots.push(game.clone(), events);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use shared::game::GameEventKind;
+
+    use super::*;
+
+    #[test]
+    fn what_comes_later_than_it_was_predicted_is_told_once() {
+        let table = Arc::new(Table::shipped("classic").unwrap().unwrap());
+        let mut board = Board::new(&table);
+        let kicked = |tick| GameEvent { tick, kind: GameEventKind::Kicked { element: 3, speed: 1.0 } };
+        let note = |board: &mut Board, tick| board.note(&kicked(tick), &table, 1, 0.0);
+        note(&mut board, 100);
+        board.seen_until(110);
+        board.correct(90, &[]);
+        note(&mut board, 112);
+        assert_eq!(board.fresh, [kicked(100)]);
+        note(&mut board, 150);
+        note(&mut board, 105);
+        assert_eq!(board.fresh, [kicked(100), kicked(150)]);
+    }
+}

@@ -70,6 +70,7 @@ fn bare(kind: GameEventKind) -> GameEventKind {
         K::Felled { element, .. } => K::Felled { element, speed: 0.0 },
         K::Struck { element, .. } => K::Struck { element, speed: 0.0 },
         K::Points { seat, points, .. } => K::Points { seat, points, place: None },
+        K::Met { .. } => K::Met { speed: 0.0, place: (0.0, 0.0) },
         other => other,
     }
 }

@@ -1,6 +1,6 @@
 //! A session without sockets: it is fed with the frames of a room that is simulated, at times that a test decides.
 
-use shared::game::{Action, Bot, Input};
+use shared::game::{Action, Bot, GameEventKind, Input};
 use shared::protocol::{BoardInput, Boards, Change, Full, Inputs, REQUEST_SECONDS, digest_of_room};
 
 use super::*;
@@ -235,6 +235,23 @@ fn a_place_brings_the_stream_of_players_and_its_loss_that_of_spectators() {
     let switches = room.sent.iter().filter(|message| matches!(message, ClientMessage::Stream(_))).count();
     assert_eq!((switches, room.asks(), room.session.counts().mismatches), (4, 0, 0));
     assert!(room.session.counts().right > 200, "{:?}", room.session.counts());
+}
+
+#[test]
+fn what_was_predicted_wrongly_is_heard_once() {
+    // The room's bot flips, of which the prediction knows nothing: it is wrong again and again.
+    let mut room = Room::new(Mode::Challenge, 1, StreamChoice::default(), Role::Play);
+    room.session.hear(0.0, ServerMessage::You { client: 1, place: Some(0), line: None }).unwrap();
+    let (mut heard, mut truth) = (0_usize, 0);
+    let is_kick = |event: &&GameEvent| matches!(event.kind, GameEventKind::Kicked { .. });
+    for _ in 0..60_000 {
+        room.step();
+        truth += room.games[0].events().iter().filter(is_kick).count();
+        heard += room.session.take_fresh().iter().filter(is_kick).count();
+    }
+    assert!(truth > 20 && room.session.counts().wrong > 20, "{truth} {:?}", room.session.counts());
+    // Some are predicted that never come, and some come of which nobody knew.
+    assert!(heard.abs_diff(truth) * 10 <= truth, "{heard} kicks were heard of {truth}");
 }
 
 #[test]

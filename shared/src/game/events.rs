@@ -5,6 +5,9 @@ use serde::{Deserialize, Serialize};
 use super::input::Nudge;
 use crate::physics::{Event, EventKind};
 
+/// Speed from which it is told that two balls met, m/s. A ball that lies on another hops on it all the time, far more slowly.
+const HEARD: f64 = 0.1;
+
 /// Something that happened.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct GameEvent {
@@ -170,6 +173,13 @@ pub enum GameEventKind {
         /// Whose turn it is.
         seat: u8,
     },
+    /// Two balls met, hard enough to be heard.
+    Met {
+        /// Of approach, m/s.
+        speed: f32,
+        /// Where on the table, m.
+        place: (f32, f32),
+    },
 }
 
 /// What is done about a ball that is stuck.
@@ -193,6 +203,10 @@ impl GameEventKind {
             EventKind::Spun { element } => Some(Self::Spun { element }),
             EventKind::Held { element } => Some(Self::Held { element }),
             EventKind::Ejected { element } => Some(Self::Ejected { element }),
+            EventKind::Met { speed, .. } if speed >= HEARD => {
+                let place = (event.position.x as f32, event.position.y as f32);
+                Some(Self::Met { speed: speed as f32, place })
+            }
             EventKind::Met { .. } | EventKind::Stalled { .. } | EventKind::Drained | EventKind::Escaped => None,
         }
     }

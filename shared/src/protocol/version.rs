@@ -282,6 +282,7 @@ fn sample_events() -> Vec<BoardEvent> {
         GameEventKind::Nudged { nudge: Nudge::Forward },
         GameEventKind::Warned { seat: 1 },
         GameEventKind::Tilted { seat: 1 },
+        GameEventKind::Met { speed: 0.5, place: (0.1, 0.2) },
     ];
     kinds.map(|kind| BoardEvent { board: 1, event: GameEvent { tick: 9, kind } }).to_vec()
 }

@@ -52,6 +52,8 @@ fn every_element_has_its_sound_and_its_place() {
         GameEventKind::Nudged { nudge: Nudge::FromLeft },
         GameEventKind::Served { seat: 0, ball: 1 },
         GameEventKind::Lost { seat: 0 },
+        GameEventKind::ExtraBall { seat: 0 },
+        GameEventKind::Met { speed: 1.0, place: (0.1, 0.5) },
     ];
     let cues: Vec<Cue> = heard(&table, &kinds).into_iter().map(Option::unwrap).collect();
     use Sound as S;
@@ -73,6 +75,8 @@ fn every_element_has_its_sound_and_its_place() {
         S::Nudge,
         S::Serve,
         S::Drain,
+        S::Knock,
+        S::Clack,
     ];
     assert_eq!(cues.iter().map(|cue| cue.sound).collect::<Vec<_>>(), sounds);
     let sides: String = cues
@@ -83,7 +87,7 @@ fn every_element_has_its_sound_and_its_place() {
             _ => '-',
         })
         .collect();
-    assert_eq!(sides, "-RLLLRL-LRLRRRLR-");
+    assert_eq!(sides, "-RLLLRL-LRLRRRLR--L");
     assert!(cues.iter().all(|cue| cue.pan.abs() <= MOST_PAN && (0.1..=1.0).contains(&cue.gain)));
 }
 
@@ -103,6 +107,29 @@ fn a_wide_wall_is_heard_where_the_ball_is() {
     let left = listener.cue_of(frame, &[at(0.4, 0.1), at(0.02, 3.0)]).unwrap();
     let right = listener.cue_of(frame, &[at(0.5, 0.1)]).unwrap();
     assert!(left.pan < -0.6 && right.pan > 0.6, "{} {}", left.pan, right.pan);
+}
+
+#[test]
+fn what_is_free_rolls_unless_the_game_stands_still() {
+    let table = classic();
+    let mut listener = Listener::new(&table, 0);
+    let game = Game::new(Arc::clone(&table));
+    let at = |x, speed, is_held| Motion {
+        id: 0,
+        position: macroquad::math::dvec2(x, 0.5),
+        velocity: macroquad::math::dvec2(0.0, speed),
+        spin: 0.0,
+        floor: 0,
+        is_held,
+    };
+    let mut moment = Moment::of(&game, 0.0);
+    moment.at.tick = 5;
+    assert_eq!(listener.roll(&moment), Roll::NONE);
+    moment.balls = vec![at(0.514, 1.2, false), at(0.0, 0.3, false), at(0.1, 9.0, true)];
+    let roll = listener.roll(&moment);
+    assert!((roll.speed - 0.5).abs() < 1e-6 && (roll.pan - 0.6 * MOST_PAN).abs() < 1e-6, "{roll:?}");
+    listener.hear(&moment, &[], &mut |cue| panic!("{cue:?}"));
+    assert_eq!(listener.roll(&moment), Roll::NONE, "the same moment again");
 }
 
 #[test]
@@ -134,6 +161,8 @@ fn points_ring_and_great_ones_are_a_jackpot() {
     };
     assert_eq!(hear(&[(5, points(10_000)), (5, message)]), [Sound::Chime, Sound::Jackpot]);
     assert_eq!(hear(&[(5, points(10_000)), (9, message)]), [Sound::Chime, Sound::Award]);
+    let multiball = table.rules.messages.iter().position(|text| text == "MULTIBALL").unwrap() as u16;
+    assert_eq!(hear(&[(5, GameEventKind::Message { place: multiball })]), [Sound::Jackpot]);
 }
 
 #[test]
