@@ -31,7 +31,9 @@ pub(crate) fn view_of(session: &mut Session, words: Words, now: f64, with_overla
     let mut view = room_board(session, main, words, now);
     let Some(moment) = session.moment(main) else { return view };
     fill_hud(&mut view.hud, session, &moment);
-    view.light_show = screens::is_attract(session) && (view.hud.ball == 0 || !view.hud.banner.is_empty());
+    // While the title is shown, or would be if a menu did not say it.
+    let is_title = now % screens::TITLE.1 < screens::TITLE.0;
+    view.light_show = screens::is_attract(session) && (view.hud.ball == 0 || is_title);
     view.overlay = with_overlay.then(|| overlay_of(&moment));
     if with_overlay {
         // Whoever wants to see the physics wants nothing in front of it; the display says the same.

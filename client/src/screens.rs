@@ -26,7 +26,7 @@ pub(crate) struct Words {
 const BOT: &str = "BOT";
 /// Seconds for which the title is shown over a game of the bot, and from one showing to the next: in between, its play
 /// can be watched.
-const TITLE: (f64, f64) = (6.0, 14.0);
+pub(crate) const TITLE: (f64, f64) = (6.0, 14.0);
 /// Seconds for which a blinking line is there, and for which it is not.
 const BLINK: (f64, f64) = (0.9, 0.35);
 
