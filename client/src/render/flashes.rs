@@ -31,6 +31,8 @@ const ROCKET_SLOWER: f32 = 0.42;
 const ROCKET_WIDER: f32 = 1.7;
 /// Seconds that the glow of a cheer lasts.
 const CHEER: f32 = 2.2;
+/// More points at once nobody can read; the newest are seen.
+const MOST_POINTS: usize = 6;
 /// Seconds for which the word of a tilt stands over the table.
 const TILT: f32 = 2.2;
 
@@ -131,6 +133,7 @@ impl Stage<'_> {
 
     /// Points float up from where they were made, none over another.
     fn popups(&mut self, popups: &[Popup]) {
+        let popups = &popups[popups.len().saturating_sub(MOST_POINTS)..];
         let pitch = self.panels.popup;
         let field = self.layout.seen_playfield();
         let wanted = |popup: &Popup| {
