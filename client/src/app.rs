@@ -77,6 +77,8 @@ pub(crate) struct App {
     tables: Vec<Shelved>,
     /// When somebody chose to play who has no place yet.
     wants_place: Option<f64>,
+    /// When the game at one's own table ended, if nothing was done since.
+    over_since: Option<f64>,
     renderer: Renderer,
     audio: Audio,
     /// The table that the renderer draws.
@@ -107,6 +109,7 @@ impl App {
             last_page: None,
             tables: Vec::new(),
             wants_place: None,
+            over_since: None,
             goal: options.goal.clone(),
             home: Arc::clone(&backdrop),
             renderer: Renderer::new(&backdrop.file),

@@ -16,6 +16,8 @@ use crate::view::View;
 
 /// Seconds for which a seat at one's own table is waited for.
 const SEAT_WAIT: f64 = 3.0;
+/// Seconds after the end of a game at one's own table until the bot plays again.
+const OVER_WAIT: f64 = 30.0;
 
 impl App {
     /// What the pages speak of.
@@ -35,10 +37,13 @@ impl App {
             _ => (false, String::new()),
         };
         let keys = screens::playing_keys(&self.store.settings.keys, self.table.file.cabinet.is_some());
+        let shipped = SHIPPED.iter().find(|shipped| shipped.source == self.table.source);
+        let aims = shipped.map_or(&[] as &[&str], |shipped| shipped.aims);
+        let aims = aims.iter().map(|&aim| aim.to_owned()).collect();
         let settings = self.store.settings.clone();
         let has_film = self.last_film().is_some();
         let tables = self.tables.clone();
-        Facts { table: self.table.name.clone(), tables, room, has_place, has_film, keys, settings, was_live, reason }
+        Facts { table: self.table.name.clone(), tables, aims, room, has_place, has_film, keys, settings, was_live, reason }
     }
 
     /// Gives the menu what happened; `false` if the person wants to quit.
@@ -216,7 +221,11 @@ impl App {
     /// A table of one's own at which nobody plays any more shows the title.
     pub(super) fn settle(&mut self, now: f64) {
         let (Goal::Own(_), State::Live(_, session)) = (&self.goal, &self.state) else { return };
-        if session.place().is_some() {
+        let is_over = session.place().is_some() && !session.is_playing() && !self.menu.is_open();
+        self.over_since = is_over.then(|| self.over_since.unwrap_or(now));
+        if self.over_since.is_some_and(|since| now - since > OVER_WAIT) {
+            self.show_title();
+        } else if session.place().is_some() {
             self.wants_place = None;
         } else if !self.menu.is_open() && self.wants_place.is_none_or(|since| now - since > SEAT_WAIT) {
             self.wants_place = None;

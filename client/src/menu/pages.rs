@@ -61,6 +61,8 @@ pub(crate) struct Facts {
     pub(crate) has_film: bool,
     /// What works what on the table.
     pub(crate) keys: Vec<(String, String)>,
+    /// What to shoot for on the table, sentence by sentence.
+    pub(crate) aims: Vec<String>,
     /// What was chosen.
     pub(crate) settings: Settings,
     /// The connection has stood.
@@ -218,8 +220,14 @@ fn keys(facts: &Facts, drafts: &Drafts) -> Vec<Item> {
 }
 
 fn how_to(facts: &Facts) -> Vec<Item> {
-    let mut items: Vec<Item> =
-        facts.keys.iter().map(|(key, does)| Item::new(does, Control::Pair(key.clone()))).collect();
+    let mut items =
+        vec![Item::new("Keep the ball away from the drain with the flippers, and make points", Control::Words)];
+    items.extend(facts.keys.iter().map(|(key, does)| Item::new(does, Control::Pair(key.clone()))));
+    if !facts.aims.is_empty() {
+        items.push(Item::new(&format!("ON {}", facts.table), Control::Heading));
+        items.extend(facts.aims.iter().map(|aim| Item::new(&format!("* {aim}"), Control::Words)));
+    }
+    items.push(Item::new("OTHER KEYS", Control::Open(Page::Keys)).about("See them all, and choose others"));
     items.push(Item::new("BACK", Control::Back));
     items
 }

@@ -297,10 +297,10 @@ fn a_good_table_and_every_shipped_one_are_accepted() {
         if let Some(Err(error)) = Table::shipped(shipped.name) {
             panic!("{error}");
         }
-        assert!(
-            (1..=60).contains(&shipped.about.len()) && shipped.about.chars().all(|c| matches!(c, ' '..='~')),
-            "{shipped:?}"
-        );
+        let can_be_shown =
+            |text: &str, most| (1..=most).contains(&text.len()) && text.chars().all(|c| matches!(c, ' '..='~'));
+        assert!(can_be_shown(shipped.about, 60), "{}", shipped.name);
+        assert!(shipped.aims.iter().all(|aim| can_be_shown(aim, 120)), "{}", shipped.name);
     }
     assert_eq!(Table::shipped("no such table"), None);
 }
