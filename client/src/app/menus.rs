@@ -43,7 +43,18 @@ impl App {
         let settings = self.store.settings.clone();
         let has_film = self.last_film().is_some();
         let tables = self.tables.clone();
-        Facts { table: self.table.name.clone(), tables, aims, room, has_place, has_film, keys, settings, was_live, reason }
+        Facts {
+            table: self.table.name.clone(),
+            tables,
+            aims,
+            room,
+            has_place,
+            has_film,
+            keys,
+            settings,
+            was_live,
+            reason,
+        }
     }
 
     /// Gives the menu what happened; `false` if the person wants to quit.

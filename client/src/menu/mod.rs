@@ -183,9 +183,11 @@ impl Menu {
                 self.focus(at);
                 return match items.get(at)?.control {
                     Control::Level { setting, range: (least, most, step), .. } => {
-                        // A cast saturates.
-                        let steps = (share.clamp(0.0, 1.0) * f32::from((most - least) / step)).round() as u8;
-                        Some(MenuAct::Set(setting, least + steps * step))
+                        // As many steps as are drawn: what is never nothing has one for its least, too. A cast saturates.
+                        let first = u8::from(least > 0);
+                        let steps = (most - least) / step + first;
+                        let value = (share.clamp(0.0, 1.0) * f32::from(steps)).round() as u8;
+                        Some(MenuAct::Set(setting, least + value.max(first).saturating_sub(first) * step))
                     }
                     _ => self.confirm(items.get(at)?, facts),
                 };

@@ -125,7 +125,7 @@ impl Page {
 fn title(facts: &Facts) -> Vec<Item> {
     let film =
         facts.has_film.then(|| act("LAST GAME AGAIN", MenuAct::Film).about("Watch it as a film, in slow motion too"));
-    let play = act("PLAY", MenuAct::Play).about(&format!("A game on {}: press ENTER", facts.table));
+    let play = act("PLAY", MenuAct::Play).about(&format!("ENTER: a game on {}", facts.table));
     let rest = [
         Item::new("AGAINST SPECTATORS", Control::Open(Page::Against)).about("Open a room for others, or join one"),
         Item::new("WATCH", Control::Open(Page::Join(Role::Watch))).about("See a game that is played elsewhere"),

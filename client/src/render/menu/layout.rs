@@ -3,6 +3,7 @@
 use macroquad::math::{Rect, Vec2, vec2};
 
 use super::super::dot_matrix::{ADVANCE, ROWS, measure};
+use super::cards::Cards;
 use crate::menu::{Control, Item, MenuView, Page};
 
 /// Glyphs in front of a label, where the ball marks the focus.
@@ -17,9 +18,10 @@ const MARGIN: f32 = 8.0;
 /// The same in a panel, which is narrow.
 const PANEL_MARGIN: f32 = 6.0;
 /// Dots from a line of words to the next.
-const LINE: f32 = 11.0;
+pub(super) const LINE: f32 = 11.0;
 /// Dots of the row of an item that can have the focus, and above a heading.
 const ITEM: f32 = 14.0;
+const PANEL_ITEM: f32 = 12.0;
 const ABOVE_HEADING: f32 = 6.0;
 
 /// An item that is on the screen.
@@ -104,7 +106,7 @@ impl MenuLayout {
         let title_pitch = if place == Place::Panel { 0 } else { title_pitch(&view.title, pitch, most) };
         let cards = Cards::new(area, dots, view);
         let wanted = view.items.iter().map(wanted_glyphs).fold(LEAST_GLYPHS.max(cards.glyphs()), f32::max);
-        let least = view.items.iter().filter(|item| !is_words(item)).map(wanted_glyphs).fold(0.0, f32::max);
+        let least = view.items.iter().map(least_glyphs).fold(0.0, f32::max);
         if least * glyph > most && place != Place::Cut {
             return None;
         }
@@ -116,12 +118,15 @@ impl MenuLayout {
         let words = cards.words(width);
         let lines: Vec<Vec<String>> =
             view.items.iter().map(|item| lines_of(item, width, words, pitch, small)).collect();
+        let is_card = |(item, _): &(&Item, &Vec<String>)| matches!(item.control, Control::Table(_));
+        let card_lines = view.items.iter().zip(&lines).filter(is_card).map(|(_, lines)| lines.len()).max().unwrap_or(0);
         let heights: Vec<f32> = view
             .items
             .iter()
             .zip(&lines)
             .map(|(item, lines)| match item.control {
-                Control::Table(_) => cards.height(lines.len(), f32::from(small)),
+                Control::Table(_) => cards.height(card_lines, f32::from(small)),
+                _ if place == Place::Panel => PANEL_ITEM * dots,
                 _ => height(item, lines.len()) * dots,
             })
             .collect();
@@ -191,78 +196,6 @@ impl MenuLayout {
     }
 }
 
-/// How the tables of a page stand: beside each other where the window is wide, their words below their pictures; else below
-/// each other, their words beside their pictures. They come first on their page.
-#[derive(Debug, Clone, Copy)]
-struct Cards {
-    count: usize,
-    is_beside: bool,
-    /// Pixels of a picture's place.
-    picture: Vec2,
-    dots: f32,
-}
-
-impl Cards {
-    fn new(area: Rect, dots: f32, view: &MenuView) -> Self {
-        let count = view.items.iter().filter(|item| matches!(item.control, Control::Table(_))).count();
-        let is_beside = count > 0 && area.w > area.h * 1.1;
-        let high = if is_beside { area.h * 0.44 } else { area.h * (0.56 / count.max(1) as f32).min(0.26) };
-        let wide = if is_beside { high } else { high * 0.62 };
-        Self { count, is_beside, picture: vec2(wide, high).floor(), dots }
-    }
-
-    /// Glyphs of all of them.
-    fn glyphs(&self) -> f32 {
-        match self.count {
-            0 => 0.0,
-            count if self.is_beside => (count as f32 * 24.0).min(72.0),
-            _ => 40.0,
-        }
-    }
-
-    /// Pixels of a card, and of its words.
-    fn cell(&self, width: f32) -> f32 {
-        let gaps = (self.count.max(1) - 1) as f32 * 8.0 * self.dots;
-        if self.is_beside { ((width - gaps) / self.count.max(1) as f32).floor() } else { width }
-    }
-
-    fn words(&self, width: f32) -> f32 {
-        let cell = self.cell(width);
-        if self.is_beside { cell } else { cell - self.picture.x - 6.0 * self.dots }
-    }
-
-    /// Of a card with so many lines, the first of them its name.
-    fn height(&self, lines: usize, small: f32) -> f32 {
-        let words = LINE * (self.dots + lines.saturating_sub(1) as f32 * small) + 2.0 * self.dots;
-        let both = if self.is_beside { self.picture.y + 4.0 * self.dots + words } else { self.picture.y.max(words) };
-        both + 5.0 * self.dots
-    }
-
-    /// What cards beside each other do not take of the sum of heights.
-    fn saved(&self, heights: &[f32]) -> f32 {
-        if !self.is_beside {
-            return 0.0;
-        }
-        let cards = &heights[..self.count];
-        cards.iter().sum::<f32>() - cards.last().copied().unwrap_or(0.0)
-    }
-
-    /// All of a card, its picture, its words.
-    fn place(&self, place: usize, row: Rect) -> (Rect, Rect, Rect) {
-        let cell = self.cell(row.w);
-        let gap = 4.0 * self.dots;
-        if self.is_beside {
-            let x = (row.x + place as f32 * (cell + 8.0 * self.dots)).round();
-            let picture = Rect::new(x, row.y, cell, self.picture.y);
-            let words = Rect::new(x, picture.bottom() + gap, cell, row.h - picture.h - gap);
-            return (Rect::new(x, row.y, cell, row.h), picture, words);
-        }
-        let picture = Rect::new(row.x, row.y, self.picture.x, self.picture.y);
-        let words = Rect::new(picture.right() + 6.0 * self.dots, row.y + gap, self.words(row.w), row.h - gap);
-        (row, picture, words)
-    }
-}
-
 /// Where a page is to stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Place {
@@ -284,10 +217,6 @@ fn title_pitch(title: &str, pitch: u16, width: f32) -> u16 {
     (pitch + 1..=largest_title(pitch)).rev().find(|&larger| measure(title, larger).x <= width).unwrap_or(pitch)
 }
 
-fn is_words(item: &Item) -> bool {
-    item.control == Control::Words
-}
-
 /// Glyphs that an item would take in one line.
 fn wanted_glyphs(item: &Item) -> f32 {
     let label = item.label.chars().count() as f32;
@@ -300,6 +229,15 @@ fn wanted_glyphs(item: &Item) -> f32 {
         Control::Switch { .. } => CURSOR + label + 2.0 + 3.0,
         Control::Keys { keys, .. } => CURSOR + label + 2.0 + (keys.chars().count() as f32).max(11.0),
         Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => CURSOR + label,
+    }
+}
+
+/// Glyphs that it takes at the least: words are broken, and of keys as many are shown as there is room for.
+fn least_glyphs(item: &Item) -> f32 {
+    match item.control {
+        Control::Words => 0.0,
+        Control::Keys { .. } => CURSOR + item.label.chars().count() as f32 + 2.0 + 11.0,
+        _ => wanted_glyphs(item),
     }
 }
 

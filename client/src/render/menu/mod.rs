@@ -1,5 +1,6 @@
 //! Draws menus over the picture: a plate of dark glass with dots on it, and a ball that marks the focus.
 
+mod cards;
 mod layout;
 
 use macroquad::color::{Color, WHITE};
@@ -192,11 +193,14 @@ impl MenuPainter {
             Control::Field(_) => self.field(&item.label, area, layout.pitch, has_focus, clock),
             Control::Level { value, range: (least, most, step), .. } => {
                 self.label(layout, row, item, has_focus);
-                self.level(layout.bar(row), (value - least) / step, (most - least) / step, layout.pitch, has_focus);
+                // What is never nothing has a step for its least, too.
+                let first = u8::from(*least > 0);
+                let steps = |value: u8| (value - least) / step + first;
+                self.level(layout.bar(row), steps(*value), steps(*most), layout.pitch, has_focus);
             }
             Control::Switch { is_on, .. } => {
                 self.label(layout, row, item, has_focus);
-                self.value(layout, row, if *is_on { "ON" } else { "OFF" }, has_focus || *is_on);
+                self.value(layout, row, item, if *is_on { "ON" } else { "OFF" }, has_focus || *is_on);
             }
             Control::Keys { keys, waits, .. } => {
                 self.label(layout, row, item, has_focus);
@@ -209,7 +213,7 @@ impl MenuPainter {
                 } else {
                     keys
                 };
-                self.value(layout, row, text, has_focus);
+                self.value(layout, row, item, text, has_focus);
             }
             Control::Table(shelved) => self.card(layout, row, shelved, has_focus),
             Control::Open(_) | Control::Back | Control::Act(_) | Control::Join(_) => {
@@ -249,12 +253,18 @@ impl MenuPainter {
         self.text(&item.label, vec2(area.x + 15.0 * dots, y), layout.pitch, shade(has_focus));
     }
 
-    /// What an item has at its right end.
-    fn value(&mut self, layout: &MenuLayout, row: &Row, text: &str, is_bright: bool) {
-        let pitch = self.fonts.fitting(text, layout.pitch, row.area.w * 0.7);
-        let corner =
-            vec2(row.area.right() - measure(text, pitch).x, row.area.center().y - f32::from(ROWS * pitch) / 2.0);
-        self.text(text, corner, pitch, shade(is_bright));
+    /// What an item has at its right end; of a list as much as there is room for.
+    fn value(&mut self, layout: &MenuLayout, row: &Row, item: &Item, text: &str, is_bright: bool) {
+        let pitch = layout.pitch;
+        let room = row.area.w - 15.0 * f32::from(pitch) - measure(&format!("{}  ", item.label), pitch).x;
+        let mut text = text.to_owned();
+        while measure(&text, pitch).x > room
+            && let Some((rest, _)) = text.trim_end_matches(" +").rsplit_once(", ")
+        {
+            text = format!("{rest} +");
+        }
+        let y = row.area.center().y - f32::from(ROWS * pitch) / 2.0;
+        self.text(&text, vec2(row.area.right() - measure(&text, pitch).x, y), pitch, shade(is_bright));
     }
 
     /// Steps of a level, lit up to its value.
