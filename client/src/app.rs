@@ -354,6 +354,9 @@ impl App {
         let settings = &self.store.settings;
         (self.view.reduced_flashing, self.view.marked_lights) = (settings.reduced_flashing, settings.marked_lights);
         self.view.text_scale = settings.text_scale;
+        if settings.reduced_flashing {
+            self.view.elements.iter_mut().for_each(|element| element.lit |= element.winks);
+        }
         if self.shows_statistics {
             self.view.hud.message = self.statistics();
         }
@@ -417,8 +420,13 @@ impl App {
         if std::mem::take(&mut self.wants_picture) {
             self.pictures.take(now);
         }
-        let last = self.options.screenshot.as_ref().filter(|screenshot| now >= screenshot.after);
-        last.inspect(|screenshot| pictures::save(get_screen_data(), &screenshot.file)).is_some()
+        let Some(last) = self.options.screenshot.as_ref().filter(|screenshot| now >= screenshot.after) else {
+            return false;
+        };
+        if let Err(error) = pictures::save(get_screen_data(), &last.file) {
+            tracing::error!("{error}");
+        }
+        true
     }
 }
 

@@ -132,7 +132,9 @@ pub(crate) fn board_view(moment: &Moment<'_>, effects: &mut Effects, words: Word
     }
     for (place, &element) in table.lights.iter().enumerate() {
         if let Some(element) = view.elements.get_mut(usize::from(element)) {
-            element.lit = moment.game.lights() >> place & 1 == 1 && !winks(moment.game.light_time_left(place));
+            let is_lit = moment.game.lights() >> place & 1 == 1;
+            element.winks = is_lit && winks(moment.game.light_time_left(place));
+            element.lit = is_lit && !element.winks;
         }
     }
     let magnets = table.scene.magnets.iter().zip(&moment.game.world().state().magnets);

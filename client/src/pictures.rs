@@ -5,7 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::thread::JoinHandle;
 
+use image::{ColorType, ImageError, ImageFormat};
 use macroquad::texture::{Image, get_screen_data};
+use thiserror::Error;
 
 /// Seconds for which the screen says where a picture is.
 const SAID: f64 = 4.0;
@@ -16,7 +18,7 @@ const MOST: u32 = 99_999;
 #[derive(Debug)]
 pub(crate) struct Pictures {
     folder: Option<PathBuf>,
-    saving: Option<JoinHandle<()>>,
+    saving: Option<JoinHandle<Result<PathBuf, PictureError>>>,
     /// What there is to say, and until when.
     word: Option<(String, f64)>,
 }
@@ -40,11 +42,9 @@ impl Pictures {
         let word = match self.folder.as_deref().map(reserve) {
             Some(Ok(file)) => {
                 tracing::info!("a picture goes to {}", file.display());
-                let word = format!("SAVED {}", last_parts(&file));
                 let picture = get_screen_data();
-                // Should a disk be full, the thread says so on the terminal.
-                self.saving = Some(std::thread::spawn(move || save(picture, &file)));
-                word
+                self.saving = Some(std::thread::spawn(move || save(picture, &file).map(|()| file)));
+                "SAVING A PICTURE".to_owned()
             }
             Some(Err(error)) => {
                 tracing::warn!("no picture: {error}");
@@ -56,24 +56,46 @@ impl Pictures {
     }
 
     /// What the screen is to say of it.
-    pub(crate) fn word(&self, now: f64) -> Option<&str> {
+    pub(crate) fn word(&mut self, now: f64) -> Option<&str> {
+        if self.saving.as_ref().is_some_and(JoinHandle::is_finished) {
+            self.word = self.finish().map(|word| (word, now + SAID));
+        }
         self.word.as_ref().filter(|(_, until)| now < *until).map(|(word, _)| word.as_str())
     }
 
-    /// Waits for what is being saved.
-    pub(crate) fn finish(&mut self) {
-        if let Some(saving) = self.saving.take() {
-            // It has said what went wrong.
-            let _ = saving.join();
+    /// Waits for what is being saved, and says what became of it.
+    pub(crate) fn finish(&mut self) -> Option<String> {
+        match self.saving.take()?.join() {
+            Ok(Ok(file)) => Some(format!("SAVED {}", last_parts(&file))),
+            Ok(Err(error)) => {
+                tracing::warn!("no picture: {error}");
+                Some("NO PICTURE: CANNOT WRITE".to_owned())
+            }
+            // It has said on the terminal what went wrong.
+            Err(_) => None,
         }
     }
 }
 
-/// Writes a picture of the screen.
-pub(crate) fn save(mut picture: Image, file: &Path) {
+/// Why a picture is not there.
+#[derive(Debug, Error)]
+#[error("cannot write {file}: {error}; a folder with room that can be written to would be right")]
+pub(crate) struct PictureError {
+    file: String,
+    error: ImageError,
+}
+
+/// Writes a picture of the screen, whose rows are from the lowest to the highest.
+///
+/// # Errors
+/// If there is no room, or it may not be written.
+pub(crate) fn save(mut picture: Image, file: &Path) -> Result<(), PictureError> {
     // The window's alpha means nothing, but a viewer would take it for transparency.
     picture.bytes.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = u8::MAX);
-    picture.export_png(&file.to_string_lossy());
+    let (width, height) = (u32::from(picture.width), u32::from(picture.height));
+    let rows: Vec<u8> = picture.bytes.chunks_exact(4 * width as usize).rev().flatten().copied().collect();
+    image::save_buffer_with_format(file, &rows, width, height, ColorType::Rgba8, ImageFormat::Png)
+        .map_err(|error| PictureError { file: file.display().to_string(), error })
 }
 
 /// An empty file of a name that no other one has, for a picture in a folder.
@@ -117,10 +139,13 @@ mod tests {
     #[test]
     fn a_picture_is_a_png_without_transparency() {
         let file = std::env::temp_dir().join(format!("starball-picture-{}.png", std::process::id()));
-        save(Image { bytes: vec![10, 20, 30, 0, 40, 50, 60, 0], width: 2, height: 1 }, &file);
+        let picture = || Image { bytes: vec![10, 20, 30, 0, 40, 50, 60, 0], width: 1, height: 2 };
+        save(picture(), &file).unwrap();
         let bytes = std::fs::read(&file).unwrap();
         std::fs::remove_file(&file).unwrap();
         let read = Image::from_file_with_format(&bytes, None).unwrap();
-        assert_eq!(read.bytes, [10, 20, 30, 255, 40, 50, 60, 255]);
+        assert_eq!(read.bytes, [40, 50, 60, 255, 10, 20, 30, 255], "the screen's lowest row comes first");
+        let problem = save(picture(), Path::new("/no/such/folder/x.png")).unwrap_err().to_string();
+        assert!(problem.starts_with("cannot write /no/such/folder/x.png: "), "{problem}");
     }
 }

@@ -12,6 +12,7 @@ use crate::assemble;
 use crate::effects::Effects;
 use crate::menu::{Facts, Menu, MenuView, Page, Shelved};
 use crate::moment::Moment;
+use crate::pictures;
 use crate::render::Renderer;
 use crate::screens::{self, Words};
 use crate::settings::Settings;
@@ -47,9 +48,8 @@ pub(crate) async fn save(folder: &Path) -> Result<(), String> {
             next_frame().await;
         }
         renderer.draw(&still.view, still.menu.as_ref());
-        let mut picture = get_screen_data();
-        picture.bytes.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = u8::MAX);
-        picture.export_png(&folder.join(format!("{}.png", still.name)).to_string_lossy());
+        let file = folder.join(format!("{}.png", still.name));
+        pictures::save(get_screen_data(), &file).map_err(|error| error.to_string())?;
         next_frame().await;
     }
     Ok(())

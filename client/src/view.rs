@@ -111,6 +111,8 @@ pub(crate) enum BurstKind {
 pub(crate) struct ElementView {
     /// A light that is lit, a magnet that is on.
     pub(crate) lit: bool,
+    /// A light that is dark for a moment only, since it is about to go out.
+    pub(crate) winks: bool,
     /// A drop target that has fallen.
     pub(crate) down: bool,
     /// A plate on a hinge: how far it is turned from hanging, radians; positive towards the left of its line.

@@ -98,7 +98,7 @@ mod tests {
     use super::*;
 
     const TABLE: Vec2 = Vec2::new(0.514, 1.067);
-    const LIT: ElementView = ElementView { lit: true, down: false, turn: 0.0, flash: 0.0 };
+    const LIT: ElementView = ElementView { lit: true, winks: false, down: false, turn: 0.0, flash: 0.0 };
 
     fn insert(index: usize) -> Insert {
         Insert { index, center: vec2(0.05 * index as f32, 0.1 * index as f32), table: TABLE }
