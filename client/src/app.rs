@@ -77,7 +77,7 @@ pub(crate) struct App {
     tables: Vec<Shelved>,
     /// When somebody chose to play who has no place yet.
     wants_place: Option<f64>,
-    /// When the game at one's own table ended, if nothing was done since.
+    /// When the game at one's own table ended, if no other has begun.
     over_since: Option<f64>,
     renderer: Renderer,
     audio: Audio,
@@ -152,7 +152,8 @@ impl App {
         self.assemble(now);
         // 5. The picture.
         // A film has the screen for itself.
-        let menu = self.menu.view(&self.facts()).filter(|_| self.cinema.is_none());
+        let has_menu = self.menu.is_open() && self.cinema.is_none();
+        let menu = has_menu.then(|| self.menu.view(&self.facts())).flatten();
         self.renderer.draw(&self.view, menu.as_ref());
         self.report.drawn(now);
         self.note_window();
@@ -283,6 +284,8 @@ impl App {
         let mut wishes = Vec::new();
         let mut events = Vec::new();
         if self.menu.is_open() {
+            // A key that goes up in a menu must not be down in the next game.
+            self.controls.release_all();
             self.keyboard.poll_menu(&mut events, |wish| wishes.push(wish));
         } else {
             let surface = self.surface();

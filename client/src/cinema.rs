@@ -48,8 +48,9 @@ impl Cinema {
         let table = projector.film().table().clone();
         let loose = projector.moment().balls.iter().filter(|ball| !ball.is_held).count();
         let mut budget = Budget::of_picture(table.scene.tick_seconds, 1);
+        let first = projector.film().first();
         projector.advance(elapsed, &mut budget, |event| {
-            let at = event.tick as f64 * table.scene.tick_seconds;
+            let at = event.tick.saturating_sub(first) as f64 * table.scene.tick_seconds;
             effects.note(event, &table, loose, at);
             fresh.push(*event);
         });
@@ -60,6 +61,8 @@ impl Cinema {
         if self.projector.speed() <= MOST_HEARD {
             let (moment, table) = (self.projector.moment(), self.projector.film().table());
             audio.hear(&Scene { table, board: 0, moment: &moment, events: &self.fresh, is_attract: false });
+        } else {
+            audio.hush();
         }
     }
 

@@ -29,6 +29,8 @@ pub(crate) enum EmbeddedError {
 pub(crate) struct Embedded {
     /// With the address of this machine, as it is reached from here.
     address: SocketAddr,
+    /// As others would type it.
+    address_for_others: String,
     stop: Option<oneshot::Sender<()>>,
     thread: Option<JoinHandle<Result<Account, ServerError>>>,
 }
@@ -44,7 +46,9 @@ impl Embedded {
             None => (TcpListener::bind((Ipv4Addr::LOCALHOST, 0))?, Config { pause: true, ..Config::new(table) }),
             Some(mode) => {
                 let everywhere = |port| TcpListener::bind((Ipv4Addr::UNSPECIFIED, port));
-                (everywhere(USUAL_PORT).or_else(|_| everywhere(0))?, Config::new(table).mode(mode))
+                // On some systems both can be had: whoever listens for this machine alone would be reached instead.
+                let usual = TcpListener::bind((Ipv4Addr::LOCALHOST, USUAL_PORT)).map(drop);
+                (usual.and_then(|()| everywhere(USUAL_PORT)).or_else(|_| everywhere(0))?, Config::new(table).mode(mode))
             }
         };
         listener.set_nonblocking(true)?;
@@ -61,7 +65,8 @@ impl Embedded {
             let shutdown = async { drop(stopped.await) };
             runtime.block_on(starball_server::run(listener, config, shutdown))
         })?;
-        Ok(Self { address, stop: Some(stop), thread: Some(thread) })
+        let address_for_others = format!("{}:{}", own_address(), address.port());
+        Ok(Self { address, address_for_others, stop: Some(stop), thread: Some(thread) })
     }
 
     /// Where it listens.
@@ -70,8 +75,8 @@ impl Embedded {
     }
 
     /// Where others reach it, as they would type it.
-    pub(crate) fn address_for_others(&self) -> String {
-        format!("{}:{}", own_address(), self.address.port())
+    pub(crate) fn address_for_others(&self) -> &str {
+        &self.address_for_others
     }
 
     /// Ends it without making anybody wait for that.

@@ -52,7 +52,7 @@ impl Film {
     }
 
     /// The tick at which it begins.
-    fn first(&self) -> u64 {
+    pub(crate) fn first(&self) -> u64 {
         self.start.world.tick
     }
 

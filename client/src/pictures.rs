@@ -94,8 +94,11 @@ pub(crate) fn save(mut picture: Image, file: &Path) -> Result<(), PictureError> 
     picture.bytes.iter_mut().skip(3).step_by(4).for_each(|alpha| *alpha = u8::MAX);
     let (width, height) = (u32::from(picture.width), u32::from(picture.height));
     let rows: Vec<u8> = picture.bytes.chunks_exact(4 * width as usize).rev().flatten().copied().collect();
-    image::save_buffer_with_format(file, &rows, width, height, ColorType::Rgba8, ImageFormat::Png)
-        .map_err(|error| PictureError { file: file.display().to_string(), error })
+    image::save_buffer_with_format(file, &rows, width, height, ColorType::Rgba8, ImageFormat::Png).map_err(|error| {
+        // Half a picture is none.
+        let _ = std::fs::remove_file(file);
+        PictureError { file: file.display().to_string(), error }
+    })
 }
 
 /// An empty file of a name that no other one has, for a picture in a folder.

@@ -344,8 +344,9 @@ impl Session {
     /// What was shown on the main board since the last call, to be heard.
     pub(crate) fn take_fresh(&mut self) -> Vec<GameEvent> {
         let main = self.main_board();
-        let mut fresh = self.boards.iter_mut().map(|board| std::mem::take(&mut board.fresh));
-        fresh.nth(main).unwrap_or_default()
+        // Of the others nothing is kept: they are not heard.
+        let mut fresh: Vec<_> = self.boards.iter_mut().map(|board| std::mem::take(&mut board.fresh)).collect();
+        fresh.swap_remove(main)
     }
 
     /// The last game on the board that is seen large, if it could be filmed.

@@ -179,6 +179,8 @@ impl Broadcast {
                 }
             }
             Order::News { kind, frame } => {
+                // Before anybody is served: who begins anew then is told this.
+                self.news.insert(kind, frame.clone());
                 let terms = terms(&self.news, self.patience, &self.next_wake);
                 for feed in self.feeds.values_mut() {
                     feed.push_news(frame.clone());
@@ -188,7 +190,6 @@ impl Broadcast {
                         }
                     }
                 }
-                self.news.insert(kind, frame);
             }
             Order::Add { client, transport, stream, greeting, ended } => {
                 let mut subscriber = Subscriber::new(client, transport, ended);

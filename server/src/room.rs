@@ -257,7 +257,10 @@ impl Room {
                 self.account.games += 1;
                 self.begin_game();
             }
-            GameEventKind::Served { .. } => self.account.balls += 1,
+            GameEventKind::Served { .. } => {
+                self.account.balls += 1;
+                self.controls.begin_ball(board);
+            }
             GameEventKind::Rescued { by: Rescue::Kickers } => {
                 tracing::warn!("tick {}: a ball is stuck, and all kickers are fired", game.tick());
             }

@@ -24,7 +24,7 @@ impl App {
     pub(super) fn facts(&self) -> Facts {
         let room = match (&self.goal, &self.embedded) {
             (Goal::Own(_) | Goal::Replay(_), _) => Room::Own,
-            (Goal::Hosted(..), Some(embedded)) => Room::Hosted(embedded.address_for_others()),
+            (Goal::Hosted(..), Some(embedded)) => Room::Hosted(embedded.address_for_others().to_owned()),
             (Goal::Hosted(..), None) => Room::Hosted(String::new()),
             (Goal::Server { address, .. }, _) => Room::Guest(address.clone()),
         };
@@ -109,8 +109,7 @@ impl App {
             }
             MenuAct::PlayOn(shelved) => {
                 self.take(shelved);
-                self.menu.close();
-                self.wants_place = Some(self.now());
+                self.play_here();
             }
             MenuAct::Take(shelved) => self.take(shelved),
             MenuAct::Host(mode) => self.go(Goal::Hosted(self.table.clone(), mode)),
@@ -123,8 +122,7 @@ impl App {
             }
             MenuAct::Restart => {
                 self.go(Goal::Own(self.table.clone()));
-                self.menu.close();
-                self.wants_place = Some(self.now());
+                self.play_here();
             }
             MenuAct::LeaveSeat => {
                 if let State::Live(_, session) = &mut self.state {
@@ -160,6 +158,14 @@ impl App {
             tables.insert(0, shelve(Arc::clone(&self.home), "The table that you brought"));
         }
         tables
+    }
+
+    /// A game at the table that was just gone to, unless there is no server for it: the page that says so stays.
+    fn play_here(&mut self) {
+        if !matches!(self.state, State::Lost { .. }) {
+            self.menu.close();
+            self.wants_place = Some(self.now());
+        }
     }
 
     /// Takes a table for what comes: the bot plays on it.

@@ -200,9 +200,9 @@ impl Projector {
         self.difference
     }
 
-    /// The film's time, by the ticks of its game, seconds.
+    /// The film's time, seconds from its beginning: the room may have run for days before.
     pub(crate) fn at_seconds(&self) -> f64 {
-        self.at * self.tick_seconds()
+        (self.at - self.film.first() as f64) * self.tick_seconds()
     }
 
     /// Seconds from its beginning to a tick.

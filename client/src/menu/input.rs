@@ -5,6 +5,7 @@ use macroquad::math::{Vec2, vec2};
 use macroquad::miniquad::{EventHandler, KeyMods, window};
 
 use super::MenuInput;
+use crate::input::function_key;
 
 /// What happened.
 #[derive(Debug, Clone, PartialEq)]
@@ -31,7 +32,8 @@ impl EventHandler for MenuSorter {
 
     fn key_down_event(&mut self, key: KeyCode, modifiers: KeyMods, repeat: bool) {
         // Held, these would choose what the next page has there.
-        if repeat && matches!(key, KeyCode::Enter | KeyCode::KpEnter | KeyCode::Space | KeyCode::Escape) {
+        let is_once = matches!(key, KeyCode::Enter | KeyCode::KpEnter | KeyCode::Space | KeyCode::Escape);
+        if repeat && (is_once || function_key(key).is_some()) {
             return;
         }
         if key == KeyCode::V && (modifiers.ctrl || modifiers.logo) {

@@ -14,6 +14,8 @@ pub(crate) struct Item {
     pub(crate) note: String,
     /// What it is.
     pub(crate) control: Control,
+    /// It can have the focus although there is nothing to be done with it: a page that is only read is moved so.
+    pub(crate) is_read: bool,
 }
 
 /// What an item is.
@@ -91,7 +93,7 @@ pub(crate) enum Setting {
 impl Item {
     /// An item.
     pub(super) fn new(label: &str, control: Control) -> Self {
-        Self { label: label.to_owned(), note: String::new(), control }
+        Self { label: label.to_owned(), note: String::new(), control, is_read: false }
     }
 
     /// The same with something to say about it.
@@ -100,13 +102,19 @@ impl Item {
         self
     }
 
+    /// The same on a page that is only read.
+    pub(super) fn read(mut self) -> Self {
+        self.is_read = true;
+        self
+    }
+
     /// What is typed into it.
     pub(super) fn field(&self) -> Option<Field> {
         if let Control::Field(field) = self.control { Some(field) } else { None }
     }
 
-    /// Whether something can be done with it.
+    /// Whether the focus can be on it.
     pub(crate) fn can_have_focus(&self) -> bool {
-        !matches!(self.control, Control::Heading | Control::Words | Control::Pair(_))
+        self.is_read || !matches!(self.control, Control::Heading | Control::Words | Control::Pair(_))
     }
 }

@@ -182,6 +182,8 @@ impl Menu {
                 let at = focused_at(&items, at)?;
                 self.focus(at);
                 return match items.get(at)?.control {
+                    // On its name.
+                    Control::Level { .. } if share < 0.0 => None,
                     Control::Level { setting, range: (least, most, step), .. } => {
                         // As many steps as are drawn: what is never nothing has one for its least, too. A cast saturates.
                         let first = u8::from(least > 0);
@@ -357,7 +359,7 @@ fn changed(item: &Item, more: bool) -> Option<MenuAct> {
             let value = if more { value.saturating_add(step) } else { value.saturating_sub(step) };
             Some(MenuAct::Set(setting, value.clamp(least, most)))
         }
-        Control::Switch { setting, is_on } => Some(MenuAct::Set(setting, u8::from(!is_on))),
+        Control::Switch { setting, .. } => Some(MenuAct::Set(setting, u8::from(more))),
         _ => None,
     }
 }

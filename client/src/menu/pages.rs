@@ -221,11 +221,11 @@ fn keys(facts: &Facts, drafts: &Drafts) -> Vec<Item> {
 
 fn how_to(facts: &Facts) -> Vec<Item> {
     let mut items =
-        vec![Item::new("Keep the ball away from the drain with the flippers, and make points", Control::Words)];
-    items.extend(facts.keys.iter().map(|(key, does)| Item::new(does, Control::Pair(key.clone()))));
+        vec![Item::new("Keep the ball away from the drain with the flippers, and make points", Control::Words).read()];
+    items.extend(facts.keys.iter().map(|(key, does)| Item::new(does, Control::Pair(key.clone())).read()));
     if !facts.aims.is_empty() {
         items.push(Item::new(&format!("ON {}", facts.table), Control::Heading));
-        items.extend(facts.aims.iter().map(|aim| Item::new(&format!("* {aim}"), Control::Words)));
+        items.extend(facts.aims.iter().map(|aim| Item::new(&format!("* {aim}"), Control::Words).read()));
     }
     items.push(Item::new("OTHER KEYS", Control::Open(Page::Keys)).about("See them all, and choose others"));
     items.push(Item::new("BACK", Control::Back));

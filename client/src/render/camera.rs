@@ -72,7 +72,8 @@ impl Camera {
 
 impl State {
     fn followed(self, view: &View, reach: Reach, goal: f32) -> Self {
-        let seconds = (view.clock - self.clock).clamp(0.0, LONGEST_FRAME);
+        // A film may go back as well.
+        let seconds = (view.clock - self.clock).abs().min(LONGEST_FRAME);
         if seconds == 0.0 {
             return Self { clock: view.clock, ..self };
         }
@@ -208,6 +209,18 @@ mod tests {
             let fastest = places.windows(2).map(|pair| (pair[1] - pair[0]).abs() / frame).fold(0.0, f32::max);
             assert!(fastest <= FASTEST + 0.01, "{fastest}");
         }
+    }
+
+    /// It stood still, and the ball left the picture.
+    #[test]
+    fn a_film_that_goes_back_is_followed() {
+        let mut camera = Camera::default();
+        camera.follow(&view(60.0, &[(1.8, 0.0)]), REACH);
+        let mut bottom = 1.0;
+        for frame in 1..200_u16 {
+            bottom = camera.follow(&view(60.0 - f32::from(frame) / 60.0, &[(0.1, 0.0)]), REACH);
+        }
+        assert!(bottom < 0.05, "{bottom}");
     }
 
     #[test]

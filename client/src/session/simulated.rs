@@ -375,3 +375,16 @@ fn after_a_while_in_which_nothing_was_drawn_the_next_full_snapshot_is_where_it_g
     assert!(room.now() - room.session.feed.tick() as f64 * DT < 0.2);
     assert_eq!((room.session.counts().mismatches, room.asks()), (0, 0));
 }
+
+/// They were kept for as long as the connection stood.
+#[test]
+fn what_happens_on_boards_that_are_not_heard_is_not_kept() {
+    let mut room = Room::new(Mode::HeadToHead, 2, StreamChoice::default(), Role::Watch);
+    let mut heard = 0;
+    for _ in 0..80 {
+        room.run(0.1);
+        heard += room.session.take_fresh().len();
+        assert!(room.session.boards.iter().all(|board| board.fresh.is_empty()));
+    }
+    assert!(heard > 10, "{heard}");
+}

@@ -124,6 +124,11 @@ impl Controls {
         due
     }
 
+    /// A ball was served: whoever plays it has all the time, also where it is the same turn's again.
+    pub(super) fn begin_ball(&mut self, board: usize) {
+        self.idle[board].ticks = 0;
+    }
+
     /// Counts another tick without a control of whoever plays that board; `true` once it is `most` of them. Then it counts
     /// anew.
     pub(super) fn is_idle(&mut self, board: usize, game: &Game, place: u8, most: u64) -> bool {

@@ -16,7 +16,7 @@ impl Room {
     /// Plays the ticks that are due; none while the room stands still, and none later instead of them.
     pub(super) fn pass(&mut self, due: Due) {
         if self.paused_by.is_some() {
-            // Who comes and goes is told all the same.
+            // Who comes and goes is told all the same; once, as the time to the next telling stands still too.
             return self.tell_news();
         }
         self.account.ticks_skipped += due.skipped;

@@ -215,14 +215,20 @@ fn a_tilt_ends_the_save_and_keeps_the_extra_ball() {
     let mut game = started(1);
     place(&mut game, (0.1, 0.62), (0.0, -0.5));
     wait(&mut game, 60);
-    for _ in 0..6 {
-        place(&mut game, (0.3, 0.3), (0.0, 0.0));
-        act(&mut game, 0, Action::Nudge(Nudge::Forward));
-        act(&mut game, 0, Action::Nudge(Nudge::FromLeft));
-        wait(&mut game, 500);
-        place(&mut game, (0.3, 0.3), (0.0, 0.0));
-        wait(&mut game, 600);
+    let mut saved = game.saves_balls();
+    for tick in 0..4000 {
+        if game.tilt().tilted {
+            break;
+        }
+        saved = game.saves_balls();
+        if tick % 600 == 0 {
+            place(&mut game, (0.3, 0.3), (0.0, 0.0));
+            act(&mut game, 0, Action::Nudge(Nudge::Forward));
+            act(&mut game, 0, Action::Nudge(Nudge::FromLeft));
+        }
+        wait(&mut game, 1);
     }
+    assert!(saved, "it would have gone on");
     assert!(game.tilt().tilted && !game.saves_balls() && game.lights() & SAVE == 0, "{:?}", game.tilt());
     assert!(lose(&mut game).contains(&GameEventKind::Again { seat: 0 }));
 }

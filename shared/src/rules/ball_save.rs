@@ -37,7 +37,7 @@ impl BallSave {
 
     fn start(&mut self, rules: &BallSaveRules, lights: &mut Lights, seconds: f64, saves: u8, dt: f64) {
         self.ticks = self.ticks.max(ticks(seconds + rules.grace, dt));
-        self.left = saves;
+        self.left = self.left.max(saves);
         lights.light(rules.light);
     }
 

@@ -44,7 +44,7 @@ impl Lights {
         self.timers.iter().find(|timer| usize::from(timer.light) == light).map(|timer| timer.ticks)
     }
 
-    /// Makes room for every timer that there may be: later none of these functions allocates.
+    /// Makes room for every timer that there may be: later none of these functions allocates, but in a clone.
     pub(crate) fn reserve(&mut self) {
         self.timers.reserve_exact(MOST_TIMED_LIGHTS.saturating_sub(self.timers.len()));
     }

@@ -52,7 +52,8 @@ fn one() -> u8 {
 pub struct RuleFile {
     /// When this happens ...
     pub event: EventFile,
-    /// ... and all of this was so just before ...
+    /// ... and all of this is so when it has happened, before any rule has acted on it (at `Out` the light is out; at `Hold` the
+    /// ball is held, and counts as in play only if the saucer lets go by itself) ...
     #[serde(default)]
     pub when: Vec<ConditionFile>,
     /// ... do these, in order.

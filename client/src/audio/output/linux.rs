@@ -13,6 +13,10 @@ use super::libraries::{Alsa, Pulse};
 const BLOCK: usize = 240;
 /// Milliseconds that the device has in store. Less, and a busy machine makes gaps.
 pub(super) const STORE_MS: u32 = 25;
+/// How long a block is.
+const BLOCK_TIME: Duration = Duration::from_micros(BLOCK as u64 * 1_000_000 / RATE as u64);
+/// How far ahead of time a device may take blocks: more than any has in store.
+const MOST_AHEAD: Duration = Duration::from_millis(500);
 /// A device that took longer than this for a block has stood still: what was to be heard meanwhile is past.
 const STOOD_STILL: Duration = Duration::from_millis(250);
 /// Seconds until a device that has gone is looked for again, and again; then it is given up.
@@ -85,6 +89,7 @@ pub(in super::super) fn play(mut engine: Engine) {
 /// Plays until the program ends.
 fn play_on(device: &mut Device, engine: &mut Engine) -> Result<(), OutputError> {
     let (mut block, mut samples) = ([0.0; 2 * BLOCK], [0; 2 * BLOCK]);
+    let (begin, mut played) = (Instant::now(), Duration::ZERO);
     while engine.fill(&mut block, RATE) {
         for (sample, value) in samples.iter_mut().zip(block) {
             *sample = (value * f32::from(i16::MAX)) as i16;
@@ -93,6 +98,12 @@ fn play_on(device: &mut Device, engine: &mut Engine) -> Result<(), OutputError> 
         device.write(&samples)?;
         if before.elapsed() > STOOD_STILL && !engine.skip() {
             break;
+        }
+        // One that takes everything at once, as ALSA's null device does, sets no pace.
+        played += BLOCK_TIME;
+        let ahead = played.saturating_sub(begin.elapsed());
+        if ahead > MOST_AHEAD {
+            std::thread::sleep(ahead);
         }
     }
     Ok(())
