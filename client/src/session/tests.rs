@@ -102,9 +102,8 @@ fn a_player_sees_the_keys_at_once_and_predictions_are_right() {
     let flies = client.session.moment(0).is_some_and(|m| m.balls.iter().any(|ball| ball.position.y > 0.3));
     assert!(flies, "the plunger launched nothing");
     let counts = client.session.counts();
-    // A busy machine delivers inputs late, and it draws seldom; that must stay the exception. That none is wrong when all
-    // come in time is tested in `prediction`, without a clock.
-    assert!(counts.right > 20 && 4 * counts.wrong <= counts.right, "{counts:?}");
+    // A busy machine may deliver an input late; it must stay the exception.
+    assert!(counts.right > 50 && counts.wrong <= 3, "{counts:?}");
 
     // Who leaves watches, and may ask again only once the server has said so.
     assert!(client.session.leave());
@@ -177,7 +176,7 @@ fn a_nudge_is_seen_at_once_and_predicted_rightly() {
     }
     client.run_for(0.3);
     let counts = client.session.counts();
-    assert!(counts.right > 20 && 4 * counts.wrong <= counts.right, "{counts:?}");
+    assert!(counts.right > 30 && counts.wrong <= 3, "{counts:?}");
 }
 
 #[test]
