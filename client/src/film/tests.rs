@@ -128,7 +128,7 @@ fn a_film_ends_as_the_game_did() {
     let mut projector = Projector::new(film).unwrap();
     let events = play_to_end(&mut projector);
     let (tick, digest) = digest_of(&projector);
-    assert!(events > 50 && tick > 10_000, "{events} events, {tick} ticks");
+    assert!(events > 80 && tick > 15_000, "{events} events, {tick} ticks");
     assert_eq!((digest, projector.moment().game.phase()), (room.digests[tick as usize], Phase::Over));
     assert!(projector.difference().is_none());
     assert_eq!(projector.progress().0, projector.progress().1);
